@@ -1,0 +1,136 @@
+#include "analyze/dissection.h"
+
+#include <algorithm>
+
+namespace mlcp {
+namespace {
+
+constexpr std::int32_t leaf_size = 12;
+/// A separator is thin when it has at most 2 + 1/16 of the piece's variables.
+bool thin(std::int32_t separator, std::int32_t piece) { return separator <= 2 + piece / 16; }
+
+template <class Visit>
+void for_each_neighbour(const QuotientGraph& g, std::int32_t x, Visit visit) {
+  for (std::int32_t t = g.variable_pointers[x]; t < g.variable_pointers[x + 1]; ++t) {
+    const std::int32_t e = g.variable_elements[t];
+    for (std::int32_t s = g.element_pointers[e]; s < g.element_pointers[e + 1]; ++s) visit(g.element_variables[s]);
+  }
+  for (std::int32_t t = g.neighbour_pointers[x]; t < g.neighbour_pointers[x + 1]; ++t) visit(g.neighbours[t]);
+}
+
+}  // namespace
+
+/// Breadth-first levels from root within one piece. after: the order of visiting is in front_, level starts in
+/// level_start_, reached_ variables were found. returns: a variable of the last level.
+std::int32_t Dissection::search(const QuotientGraph& g, std::int32_t root, std::int32_t label) {
+  Array<std::int32_t>& front = front_;
+  front.clear();
+  level_start_.clear();
+  ++search_;
+  front.push_back(root);
+  level_[root] = 0;
+  piece_[root] = -label;  // negative: visited
+  std::size_t done = 0;
+  for (std::int32_t level = 0; done < front.size(); ++level) {
+    level_start_.push_back(static_cast<std::int32_t>(done));
+    for (const std::size_t end = front.size(); done < end; ++done) {
+      const std::int32_t x = front[done];
+      const auto visit = [&](std::int32_t y) {
+        if (piece_[y] != label) return;
+        piece_[y] = -label;
+        level_[y] = level + 1;
+        front.push_back(y);
+      };
+      for (std::int32_t t = g.variable_pointers[x]; t < g.variable_pointers[x + 1]; ++t) {
+        const std::int32_t e = g.variable_elements[t];
+        if (visited_[e] == search_) continue;  // its variables are all visited: each element is opened once a search
+        visited_[e] = search_;
+        for (std::int32_t s = g.element_pointers[e]; s < g.element_pointers[e + 1]; ++s) visit(g.element_variables[s]);
+      }
+      for (std::int32_t t = g.neighbour_pointers[x]; t < g.neighbour_pointers[x + 1]; ++t) visit(g.neighbours[t]);
+    }
+  }
+  reached_ = static_cast<std::int32_t>(front.size());
+  level_start_.push_back(reached_);
+  for (const std::int32_t x : front) piece_[x] = label;
+  return front[front.size() - 1];
+}
+
+bool Dissection::touches_next_level(const QuotientGraph& g, std::int32_t x, std::int32_t label) const {
+  bool found = false;
+  for_each_neighbour(g, x, [&](std::int32_t y) { found |= piece_[y] == label && level_[y] == level_[x] + 1; });
+  return found;
+}
+
+void Dissection::leaf(Piece piece) {
+  const auto t = static_cast<std::int32_t>(parent.size());
+  parent.push_back(piece.parent);
+  for (std::int32_t s = piece.first; s < piece.last; ++s) home[sequence_[s]] = t;
+}
+
+/// Splits a piece into its connected part and the rest, or into two halves and a thin separator; false: neither is to be had.
+bool Dissection::split(const QuotientGraph& g, Piece piece) {
+  const std::int32_t size = piece.last - piece.first, label = ++label_;
+  for (std::int32_t s = piece.first; s < piece.last; ++s) piece_[sequence_[s]] = label;
+  const std::int32_t far = search(g, sequence_[piece.first], label);
+  Array<std::int32_t>& front = front_;
+  if (reached_ < size) {
+    for (const std::int32_t x : front) piece_[x] = 0;
+    std::int32_t rest = piece.first + reached_;
+    for (std::int32_t s = piece.first; s < piece.last; ++s)
+      if (piece_[sequence_[s]] == label) front.push_back(sequence_[s]);
+    std::copy(front.begin(), front.end(), sequence_.begin() + piece.first);
+    stack_.push_back({piece.first, rest, piece.parent});
+    stack_.push_back({rest, piece.last, piece.parent});
+    return true;
+  }
+  search(g, far, label);
+  const auto levels = static_cast<std::int32_t>(level_start_.size()) - 1;
+  std::int32_t middle = -1;
+  for (std::int32_t l = 1; l + 1 < levels; ++l) {
+    if (level_start_[l] < size * 3 / 10 || level_start_[l + 1] > size - size * 3 / 10) continue;
+    const auto width = [&](std::int32_t k) { return level_start_[k + 1] - level_start_[k]; };
+    const auto off = [&](std::int32_t k) { return std::abs(2 * level_start_[k] - size); };
+    if (middle < 0 || width(l) < width(middle) || (width(l) == width(middle) && off(l) < off(middle))) middle = l;
+  }
+  if (middle < 0 || !thin((level_start_[middle + 1] - level_start_[middle]) / 4, size)) return false;
+
+  // variables of the middle level without a neighbour behind it belong to the near side
+  const auto first = front.begin() + level_start_[middle], last = front.begin() + level_start_[middle + 1];
+  const auto separator = std::stable_partition(first, last, [&](std::int32_t x) { return !touches_next_level(g, x, label); });
+  const auto width = static_cast<std::int32_t>(last - separator);
+  if (!thin(width, size)) return false;
+  const auto t = static_cast<std::int32_t>(parent.size());
+  parent.push_back(piece.parent);
+  for (auto x = separator; x < last; ++x) home[*x] = t;
+  const auto near = static_cast<std::int32_t>(separator - front.begin()), until = static_cast<std::int32_t>(last - front.begin());
+  std::copy(front.begin(), front.end(), sequence_.begin() + piece.first);
+  if (near) stack_.push_back({piece.first, piece.first + near, t});
+  if (until < size) stack_.push_back({piece.first + until, piece.last, t});
+  return true;
+}
+
+void Dissection::cut(const QuotientGraph& g) {
+  home.assign(g.variables, -1);
+  parent.clear();
+  piece_.assign(g.variables, 0);
+  level_.resize(g.variables);
+  visited_.assign(g.elements, 0);
+  label_ = search_ = 0;
+  sequence_.resize(g.variables);
+  for (std::int32_t x = 0; x < g.variables; ++x) sequence_[x] = x;
+  stack_.clear();
+  // the velocities of large bodies come first among the variables; then rows must wait for them and nothing is cut
+  const bool large = g.own_pointers.size() > 1;
+  if (g.variables) stack_.push_back({0, g.variables, -1});
+  while (!stack_.empty()) {
+    const Piece piece = stack_.back();
+    stack_.pop_back();
+    if (large || piece.last - piece.first <= leaf_size || !split(g, piece)) leaf(piece);
+  }
+  below.assign(parent.size(), 0);
+  for (const std::int32_t t : home)
+    for (std::int32_t a = parent[t]; a >= 0; a = parent[a]) ++below[a];
+}
+
+}  // namespace mlcp

@@ -1,0 +1,37 @@
+#pragma once
+#include "analyze/quotient_graph.h"
+
+namespace mlcp {
+
+/// Nested dissection of slender graphs (chains, ropes, trees of links), so that elimination paths are of logarithmic length,
+/// where a minimum degree order may walk along the whole chain. Bulky pieces are left to minimum degree: a piece is cut only
+/// when the middle level of a breadth-first search is thin. After George (1973).
+/// cost: O(entries · log variables) where it cuts, two searches of each piece where it does not.
+struct Dissection {
+  Array<std::int32_t> home;     ///< variable → node of the separator tree
+  Array<std::int32_t> parent;   ///< tree node → tree node above, −1
+  Array<std::int32_t> below;    ///< tree node → number of variables in the subtrees under it; they all come first
+
+  explicit Dissection(const Memory& m)
+      : home(m), parent(m), below(m), piece_(m), sequence_(m), front_(m), level_(m), visited_(m), stack_(m), level_start_(m) {}
+  void cut(const QuotientGraph& graph);
+
+ private:
+  struct Piece {
+    std::int32_t first, last, parent;
+  };
+  std::int32_t search(const QuotientGraph& graph, std::int32_t root, std::int32_t label);
+  bool touches_next_level(const QuotientGraph& graph, std::int32_t x, std::int32_t label) const;
+  bool split(const QuotientGraph& graph, Piece piece);
+  void leaf(Piece piece);
+
+  Array<std::int32_t> piece_;     // variable → label of the piece it is in
+  Array<std::int32_t> sequence_;  // variables, pieces contiguous
+  Array<std::int32_t> front_;     // in order of visiting
+  Array<std::int32_t> level_, visited_;
+  Array<Piece> stack_;
+  Array<std::int32_t> level_start_;
+  std::int32_t label_ = 0, search_ = 0, reached_ = 0;
+};
+
+}  // namespace mlcp

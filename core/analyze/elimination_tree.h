@@ -1,0 +1,22 @@
+#pragma once
+#include "analyze/kkt_pattern.h"
+
+namespace mlcp {
+
+/// Elimination forest (Liu 1990): parent[p] = first row below the diagonal of column p of L, −1 at a root. A connected island
+/// has one root.
+struct EliminationTree {
+  Array<std::int32_t> parent;
+  explicit EliminationTree(const Memory& m) : parent(m), ancestor_(m), head_(m), next_(m), stack_(m) {}
+
+  /// cost: nearly O(entries of K).
+  void build(const KktPattern& pattern);
+  /// Positions so that every subtree, hence every island, is contiguous; children keep their order. An order that is
+  /// one already comes back unchanged.
+  void postorder(Array<std::int32_t>& sequence);
+
+ private:
+  Array<std::int32_t> ancestor_, head_, next_, stack_;
+};
+
+}  // namespace mlcp

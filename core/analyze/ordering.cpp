@@ -1,0 +1,75 @@
+#include "analyze/ordering.h"
+
+namespace mlcp {
+
+void Ordering::collect_free(const Problem& problem, const Selection& selection) {
+  const SparseView mass = problem.mass_view(), jacobian = problem.jacobian_view();
+  placed_.assign(problem.n() + problem.m(), 0);
+  for (std::int32_t i = 0; i < problem.m(); ++i)
+    if (selection.row[i])
+      for (std::int32_t t = jacobian.pointers[i]; t < jacobian.pointers[i + 1]; ++t) placed_[jacobian.indices[t]] = 1;
+  free_velocity.clear();
+  for (std::int32_t j = 0; j < problem.n(); ++j) {
+    const bool diagonal = mass.pointers[j + 1] - mass.pointers[j] == 1 && mass.indices[mass.pointers[j]] == j;
+    const bool free = selection.velocity[j] && diagonal && !placed_[j];
+    placed_[j] = free;
+    if (free) free_velocity.push_back(j);
+  }
+}
+
+void Ordering::compute(const Problem& problem, const Selection& selection) {
+  const std::int32_t n = problem.n();
+  const SparseView jacobian = problem.jacobian_view();
+  collect_free(problem, selection);
+  graph_.build(problem, selection);
+  dissection_.cut(graph_);
+  degree_.run(graph_, dissection_);
+
+  // velocities of each element
+  member_pointers_.assign(graph_.elements + 1, 0);
+  for (std::int32_t j = 0; j < n; ++j)
+    if (graph_.element_of[j] >= 0) ++member_pointers_[graph_.element_of[j] + 1];
+  for (std::int32_t e = 0; e < graph_.elements; ++e) member_pointers_[e + 1] += member_pointers_[e];
+  members_.resize(member_pointers_[graph_.elements]);
+  for (std::int32_t j = n - 1; j >= 0; --j)
+    if (graph_.element_of[j] >= 0) members_[--member_pointers_[graph_.element_of[j] + 1]] = j;
+
+  order.clear();
+  const auto place_element = [&](std::int32_t e) {
+    // filled from behind: run e is now at member_pointers_[e + 1] .. member_pointers_[e + 2]
+    const std::int32_t end = e + 2 <= graph_.elements ? member_pointers_[e + 2] : static_cast<std::int32_t>(members_.size());
+    for (std::int32_t t = member_pointers_[e + 1]; t < end; ++t) {
+      if (placed_[members_[t]]) return;
+      placed_[members_[t]] = 1;
+      order.push_back(members_[t]);
+    }
+  };
+  for (const std::int32_t x : degree_.order) {
+    const std::int32_t node = graph_.node[x];
+    if (node >= n)
+      for (std::int32_t t = jacobian.pointers[node - n]; t < jacobian.pointers[node - n + 1]; ++t)
+        if (const std::int32_t e = graph_.element_of[jacobian.indices[t]]; e >= 0) place_element(e);
+    order.push_back(node);
+  }
+  for (std::int32_t e = 0; e < graph_.elements; ++e) place_element(e);
+}
+
+bool Ordering::accept(const Problem& problem, const Selection& selection, std::span<const std::int32_t> imposed) {
+  const std::int32_t n = problem.n(), m = problem.m();
+  const SparseView jacobian = problem.jacobian_view();
+  collect_free(problem, selection);
+  std::size_t needed = 0;
+  for (std::int32_t node = 0; node < n + m; ++node) needed += selection.has(node) && !placed_[node];
+  if (imposed.size() != needed) return false;
+  for (const std::int32_t node : imposed) {
+    if (node < 0 || node >= n + m || !selection.has(node) || placed_[node]) return false;
+    if (node >= n)
+      for (std::int32_t t = jacobian.pointers[node - n]; t < jacobian.pointers[node - n + 1]; ++t)
+        if (const std::int32_t j = jacobian.indices[t]; selection.velocity[j] && !placed_[j]) return false;
+    placed_[node] = 1;
+  }
+  order.assign(imposed);
+  return true;
+}
+
+}  // namespace mlcp

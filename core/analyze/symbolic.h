@@ -1,0 +1,33 @@
+#pragma once
+#include "analyze/elimination_tree.h"
+#include "analyze/kkt_pattern.h"
+
+namespace mlcp {
+
+/// Columns first .. last − 1 of the elimination order: one connected component, one tree.
+struct Island {
+  std::int32_t first, last;          ///< positions
+  std::int32_t first_row, last_row;  ///< ordinals of its constraint rows
+};
+
+/// Pattern of L with every selected row in: the factor of any active set fits. Row indices ascend within a column; the first is the
+/// parent in the elimination tree.
+struct Symbolic {
+  Array<std::int32_t> parent;
+  Array<std::int64_t> pointers;
+  Array<std::int32_t> rows;
+  Array<Island> islands;
+  explicit Symbolic(const Memory& m) : parent(m), pointers(m), rows(m), islands(m), mark_(m), end_(m) {}
+
+  std::int32_t size() const { return static_cast<std::int32_t>(parent.size()); }
+  std::int64_t entries() const { return pointers.empty() ? 0 : pointers.back(); }
+
+  /// cost: O(entries of L), by walking each row's subtree twice (Davis 2006, ch. 4).
+  void build(const KktPattern& pattern, const EliminationTree& tree);
+
+ private:
+  Array<std::int32_t> mark_;
+  Array<std::int64_t> end_;
+};
+
+}  // namespace mlcp

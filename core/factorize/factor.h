@@ -1,0 +1,76 @@
+#pragma once
+#include "analyze/symbolic.h"
+#include "factorize/kkt_values.h"
+
+namespace mlcp {
+
+enum class FactorStatus {
+  ok,
+  small_pivot,           ///< the update would divide by rounding: the factor is stale, refactorize
+  not_positive_definite  ///< a velocity's pivot is not positive: Factor::failed_position()
+};
+
+/// Numeric L D Lᵀ of K restricted to the nodes that are in: all velocities and the active rows. Stored as C = L D, so that a
+/// column needs no rescaling when its pivot changes; columns and rows of what is out are zero ("as if they were not there").
+/// Every island is factored, updated and solved on its own range; several threads may work on different islands.
+///
+/// invariant, per fresh island: Σ_k C(:,k) C(:,k)ᵀ / d_k = K on the nodes that are in, up to rounding.
+class Factor {
+ public:
+  explicit Factor(const Memory& m) : values_(m), pivot_(m), inverse_(m), in_(m), next_(m), head_(m), cursor_(m), y_(m), mark_(m), reach_(m) {}
+
+  /// Sizes everything for this pattern. allocates; all islands are stale afterwards.
+  void prepare(const KktPattern& pattern, const Symbolic& symbolic, const KktValues& values);
+  /// New numbers in the same pattern: all islands are stale afterwards.
+  void forget(const KktValues& values) { kkt_ = &values; }
+
+  bool in(std::int32_t p) const { return in_[p] != 0; }
+  double pivot(std::int32_t p) const { return pivot_[p]; }
+
+  /// Factors an island afresh with the rows that wanted[p] names. A row whose pivot is at most drop · a in size depends on the
+  /// rows before it and is left out: in(p) is false afterwards.
+  /// cost: Σ over columns of (entries)², left-looking.
+  FactorStatus factorize(const Island& island, const std::uint8_t* wanted, double drop, std::int64_t& work);
+
+  /// Takes row p out.  before: in.  after: as if row and column p were not there.  allocates nothing.
+  /// cost: the columns on the path parent(p) → root, and row p of L.
+  /// source: Davis & Hager (2005): row deletion as one rank-1 update.
+  FactorStatus remove(std::int32_t p, std::int64_t& work);
+  /// Takes row p in.  before: out.  after: as if factored with it.  The same paper: one sparse solve and one rank-1 downdate.
+  FactorStatus insert(std::int32_t p, std::int64_t& work);
+
+  /// x := K⁻¹ x over an island; entries of nodes that are out come back 0.
+  void solve(const Island& island, double* x, std::int64_t& work) const;
+  /// x := K⁻¹ K(:,p) over an island, for a row p that is out. returns its Schur complement K_pp − K(p,:) K⁻¹ K(:,p), whose sign
+  /// is that of −(Σ + J M⁻¹Jᵀ). The forward part follows the paths from row p's nodes alone.
+  double solve_row(const Island& island, std::int32_t p, double* x, std::int64_t& work);
+
+  /// The Schur complement of solve_row alone: no backward part.
+  double schur(const Island& island, std::int32_t p, std::int64_t& work);
+
+  /// Columns on the path parent(p) → root: what a toggle of p may touch.
+  std::int64_t path_columns(std::int32_t p) const;
+  std::int32_t failed_position() const { return failed_; }
+  const Symbolic& symbolic() const { return *symbolic_; }
+
+ private:
+  std::int32_t reach(std::int32_t p, std::int32_t below, std::int32_t last);
+  double forward_row(std::int32_t p, std::int32_t last, double* x, bool keep, std::int64_t& work);
+  std::int64_t entry(std::int32_t column, std::int32_t row) const;
+  FactorStatus rank_one(std::int32_t p, double sigma, std::int64_t& work);
+  void clear_row(std::int32_t p, std::int64_t& work);
+
+  const KktPattern* pattern_ = nullptr;
+  const Symbolic* symbolic_ = nullptr;
+  const KktValues* kkt_ = nullptr;
+  Array<double> values_;             // C, as Symbolic::rows
+  Array<double> pivot_, inverse_;    // d and 1/d; 1/d = 0 for what is out
+  Array<std::uint8_t> in_;
+  Array<std::int32_t> next_, head_;  // columns whose next row is p, while factoring
+  Array<std::int64_t> cursor_;
+  Array<double> y_;                  // 0 between calls
+  Array<std::int32_t> mark_, reach_; // mark_ is −1 between calls
+  std::int32_t failed_ = -1;
+};
+
+}  // namespace mlcp

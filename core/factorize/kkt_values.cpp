@@ -1,0 +1,67 @@
+#include "factorize/kkt_values.h"
+
+namespace mlcp {
+
+void KktValues::load(const Problem& problem, const KktPattern& pattern) {
+  const std::int32_t n = pattern.n, size = pattern.size();
+  const double* mass = problem.mass.values.data();
+  const double* jacobian = problem.jacobian.values.data();
+  const double* sigma = problem.compliance.values.data();
+  const SparseView j = problem.jacobian_view();
+
+  diagonal.resize(size);
+  b.resize(size);
+  for (std::int32_t p = 0; p < size; ++p) {
+    const std::int32_t s = pattern.diagonal_source[p];
+    if (pattern.is_row(p)) {
+      diagonal[p] = s < 0 ? 0.0 : -sigma[s];
+    } else {
+      diagonal[p] = s < 0 ? 0.0 : mass[s];
+      b[p] = problem.momentum[pattern.node[p]];
+    }
+  }
+  lower.resize(pattern.lower_rows.size());
+  for (std::int32_t p = 0; p < size; ++p) {
+    const bool column_is_row = pattern.is_row(p);
+    for (std::int32_t t = pattern.lower_pointers[p]; t < pattern.lower_pointers[p + 1]; ++t) {
+      const std::int32_t s = pattern.lower_source[t];
+      const bool row_is_row = pattern.is_row(pattern.lower_rows[t]);
+      lower[t] = column_is_row != row_is_row ? jacobian[s] : row_is_row ? -sigma[s] : mass[s];
+    }
+  }
+
+  const std::int32_t rows = pattern.rows();
+  row.resize(pattern.row_columns.size());
+  a.resize(rows);
+  lo.resize(rows);
+  hi.resize(rows);
+  for (std::int32_t o = 0; o < rows; ++o) {
+    const std::int32_t p = pattern.row_position[o], i = pattern.node[p] - n;
+    double sum = -diagonal[p];
+    for (std::int32_t t = pattern.row_pointers[o]; t < pattern.row_pointers[o + 1]; ++t) {
+      const std::int32_t q = pattern.row_columns[t], s = pattern.row_source[t];
+      if (pattern.is_row(q)) {
+        row[t] = -sigma[s];
+      } else {
+        row[t] = jacobian[s];
+        if (diagonal[q] > 0) sum += (row[t] / diagonal[q]) * row[t];
+      }
+    }
+    a[o] = sum;
+    lo[o] = problem.lo[i];
+    hi[o] = problem.hi[i];
+    double r = problem.r[i];
+    for (std::int32_t t = j.pointers[i]; t < j.pointers[i + 1]; ++t)
+      if (pattern.position[j.indices[t]] < 0) r -= j.values[t] * problem.given_velocity[j.indices[t]];
+    b[p] = r;
+  }
+}
+
+void KktValues::soften(const Problem& problem, const KktPattern& pattern, std::int32_t first, std::int32_t last, double amount) {
+  for (std::int32_t o = first; o < last; ++o) {
+    const std::int32_t p = pattern.row_position[o], s = pattern.diagonal_source[p];
+    diagonal[p] = -((s < 0 ? 0.0 : problem.compliance.values[s]) + amount * a[o]);
+  }
+}
+
+}  // namespace mlcp

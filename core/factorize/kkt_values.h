@@ -1,0 +1,26 @@
+#pragma once
+#include "analyze/kkt_pattern.h"
+#include "assemble/problem.h"
+
+namespace mlcp {
+
+/// The numbers of one step in elimination order: K x = b with x = (v, −γ), prescribed velocities moved into b.
+///
+///     K = [M Jᵀ; J −Σ],   b = (k, r − J v_given)
+struct KktValues {
+  Array<double> lower;     ///< as KktPattern::lower_rows
+  Array<double> diagonal;  ///< size
+  Array<double> row;       ///< as KktPattern::row_columns
+  Array<double> b;         ///< size
+  Array<double> a;         ///< ordinals: aᵢ = Σⱼ Jᵢⱼ²/Mⱼⱼ + Σᵢᵢ over dynamic velocities
+  Array<double> lo, hi;    ///< ordinals
+
+  explicit KktValues(const Memory& m) : lower(m), diagonal(m), row(m), b(m), a(m), lo(m), hi(m) {}
+
+  /// cost: O(entries of M, J and Σ).
+  void load(const Problem& problem, const KktPattern& pattern);
+  /// Σᵢᵢ := Σᵢᵢ + amount · aᵢ on the rows first .. last − 1; amount 0 restores the caller's Σ.
+  void soften(const Problem& problem, const KktPattern& pattern, std::int32_t first, std::int32_t last, double amount);
+};
+
+}  // namespace mlcp

@@ -1,0 +1,21 @@
+#pragma once
+#include "assemble/mask.h"
+#include "assemble/problem.h"
+
+namespace mlcp {
+
+/// Farkas: rows `row` with multipliers y prove that no v, γ satisfy the problem. Where hi = ∞, w ≥ 0 in every solution; where
+/// lo = −∞, w ≤ 0. So with y > 0 only on the former, y < 0 only on the latter, Jᵀy = 0 on dynamic velocities and Σy = 0,
+///     0 ≤ yᵀw = yᵀ(J v + Σγ − r) = −yᵀ(r − J v_given),
+/// which yᵀ(r − J v_given) > 0 contradicts. Zero means 1e-12 of |J|ᵀ|y| and |Σ||y|. From the caller's data alone.
+class CertificateCheck {
+ public:
+  explicit CertificateCheck(const Memory& m) : sum_(m), size_(m), y_(m) {}
+  bool holds(const Problem& problem, const Mask* enabled, std::span<const std::int32_t> row, std::span<const double> y);
+
+ private:
+  Array<long double> sum_;
+  Array<double> size_, y_;
+};
+
+}  // namespace mlcp

@@ -1,0 +1,110 @@
+#include "measure/errors.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mlcp {
+namespace {
+
+double or_infinite(double e) { return std::isfinite(e) ? e : infinity; }
+
+}  // namespace
+
+double natural_residual(double w, double a, double gamma, double lo, double hi) {
+  const double upper = a * (gamma - lo), lower = a * (gamma - hi);  // lower ≤ upper
+  return std::max(lower, std::min(w, upper));
+}
+
+void Measure::momentum(const Problem& problem, std::span<const double> v, std::span<const double> gamma, Errors& e) {
+  const std::int32_t n = problem.n(), m = problem.m();
+  const SparseView mass = problem.mass_view(), jacobian = problem.jacobian_view();
+  sum_.resize(n);
+  size_.resize(n);
+  for (std::int32_t j = 0; j < n; ++j) {
+    long double sum = -static_cast<long double>(problem.momentum[j]);
+    double size = std::abs(problem.momentum[j]);
+    for (std::int32_t t = mass.pointers[j]; t < mass.pointers[j + 1]; ++t) {
+      const double x = v[mass.indices[t]];
+      sum += static_cast<long double>(mass.values[t]) * x;
+      size += std::abs(mass.values[t] * x);
+    }
+    sum_[j] = sum;
+    size_[j] = size;
+  }
+  for (std::int32_t i = 0; i < m; ++i) {
+    if (gamma[i] == 0) continue;
+    for (std::int32_t t = jacobian.pointers[i]; t < jacobian.pointers[i + 1]; ++t) {
+      sum_[jacobian.indices[t]] -= static_cast<long double>(jacobian.values[t]) * gamma[i];
+      size_[jacobian.indices[t]] += std::abs(jacobian.values[t] * gamma[i]);
+    }
+  }
+  velocity_error.assign(n, 0.0);
+  for (std::int32_t j = 0; j < n; ++j) {
+    if (problem.prescribed(j)) continue;
+    const double residual = or_infinite(std::abs(static_cast<double>(sum_[j])));
+    const double relative = or_infinite(size_[j] > 0 ? residual / size_[j] : residual);
+    velocity_error[j] = relative;
+    e.momentum_residual = std::max(e.momentum_residual, residual);
+    if (e.worst_velocity < 0 || relative > e.momentum) e.worst_velocity = j;
+    e.momentum = std::max(e.momentum, relative);
+  }
+}
+
+void Measure::rows(const Problem& problem, const Mask* enabled, std::span<const double> v, std::span<const double> gamma,
+                   Errors& e) {
+  const std::int32_t n = problem.n(), m = problem.m();
+  const SparseView mass = problem.mass_view(), jacobian = problem.jacobian_view(), sigma = problem.compliance_view();
+  // size_ := 1/M_jj, 0 for prescribed velocities
+  size_.assign(n, 0.0);
+  for (std::int32_t j = 0; j < n; ++j) {
+    if (problem.prescribed(j)) continue;
+    double diagonal = 0;
+    for (std::int32_t t = mass.pointers[j]; t < mass.pointers[j + 1]; ++t)
+      if (mass.indices[t] == j) diagonal = mass.values[t];
+    size_[j] = diagonal > 0 ? diagonal : 1;
+  }
+  w.assign(m, 0.0);
+  scale.assign(m, 0.0);
+  a.assign(m, 0.0);
+  error.assign(m, 0.0);
+  double largest_a = 0;
+  for (std::int32_t i = 0; i < m; ++i) {
+    if (enabled && enabled->state[i] == MLCP_ROW_DISABLED) continue;
+    long double sum = -static_cast<long double>(problem.r[i]);
+    double size = std::abs(problem.r[i]), square = problem.sigma(i);
+    for (std::int32_t t = jacobian.pointers[i]; t < jacobian.pointers[i + 1]; ++t) {
+      const std::int32_t j = jacobian.indices[t];
+      const double x = jacobian.values[t], v0 = size_[j] > 0 ? problem.momentum[j] / size_[j] : v[j];
+      sum += static_cast<long double>(x) * v[j];
+      size += std::abs(x) * (std::abs(v[j]) + std::abs(v0));
+      if (size_[j] > 0) square += (x / size_[j]) * x;
+    }
+    for (std::int32_t t = sigma.pointers[i]; t < sigma.pointers[i + 1]; ++t) {
+      sum += static_cast<long double>(sigma.values[t]) * gamma[sigma.indices[t]];
+      size += std::abs(sigma.values[t] * gamma[sigma.indices[t]]);
+    }
+    w[i] = static_cast<double>(sum);
+    scale[i] = size > 0 ? size : 1;
+    a[i] = square;
+    largest_a = std::max(largest_a, square);
+  }
+  for (std::int32_t i = 0; i < m; ++i) {
+    if (enabled && enabled->state[i] == MLCP_ROW_DISABLED) continue;
+    if (!(a[i] > 0)) a[i] = largest_a > 0 ? largest_a : 1;
+    const double residual = or_infinite(std::abs(natural_residual(w[i], a[i], gamma[i], problem.lo[i], problem.hi[i])));
+    error[i] = or_infinite(residual / scale[i]);
+    if (!std::isfinite(gamma[i])) error[i] = infinity;
+    e.constraint_residual = std::max(e.constraint_residual, residual);
+    if (e.worst_row < 0 || error[i] > e.constraints) e.worst_row = i;
+    e.constraints = std::max(e.constraints, error[i]);
+  }
+}
+
+Errors Measure::run(const Problem& problem, const Mask* enabled, std::span<const double> v, std::span<const double> gamma) {
+  Errors e;
+  momentum(problem, v, gamma, e);
+  rows(problem, enabled, v, gamma, e);
+  return e;
+}
+
+}  // namespace mlcp

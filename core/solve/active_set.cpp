@@ -1,0 +1,68 @@
+#include "solve/active_set.h"
+
+#include <cmath>
+
+namespace mlcp {
+
+void ActiveSet::prepare(const KktPattern& pattern) {
+  state.assign(pattern.rows(), at_lower);
+  deferred.assign(pattern.rows(), 0);
+  w.assign(pattern.rows(), 0.0);
+  tolerance.assign(pattern.rows(), 0.0);
+  x.assign(pattern.size(), 0.0);
+  wanted.assign(pattern.size(), 0);
+}
+
+ActiveSet::State ActiveSet::resting(double lo, double hi) {
+  return lo > -infinity ? at_lower : hi < infinity ? at_upper : out;
+}
+
+double ActiveSet::resting_x(State state, double lo, double hi) {
+  return state == at_lower ? -lo : state == at_upper ? -hi : 0.0;
+}
+
+void ActiveSet::start(const Problem& problem, const KktPattern& pattern, const KktValues& values, const Mask* enabled,
+                      const Mask* mask) {
+  for (std::int32_t o = 0; o < pattern.rows(); ++o) {
+    const std::int32_t p = pattern.row_position[o], i = pattern.node[p] - problem.n();
+    const double lo = values.lo[o], hi = values.hi[o];
+    const mlcp_row_state asked = mask ? mask->state[i] : static_cast<mlcp_row_state>(MLCP_ROW_DISABLED);
+    State s = resting(lo, hi);
+    if (enabled && enabled->state[i] == MLCP_ROW_DISABLED)
+      s = disabled;
+    else if (s == out || (asked == MLCP_ROW_ACTIVE && lo < hi) || (!mask && lo < 0 && hi > 0))
+      s = active;
+    else if (asked == MLCP_ROW_AT_UPPER && hi < infinity)
+      s = at_upper;
+    state[o] = s;
+    deferred[o] = 0;
+    x[p] = resting_x(s, lo, hi);
+  }
+}
+
+void slacks(const Island& island, const KktPattern& pattern, const KktValues& values, const double* x, double* w) {
+  for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
+    const std::int32_t p = pattern.row_position[o];
+    double sum = values.diagonal[p] * x[p] - values.b[p];
+    for (std::int32_t t = pattern.row_pointers[o]; t < pattern.row_pointers[o + 1]; ++t)
+      sum += values.row[t] * x[pattern.row_columns[t]];
+    w[o] = sum;
+  }
+}
+
+void slack_tolerances(const Island& island, const KktPattern& pattern, const KktValues& values, const double* x, double relative,
+                      double* tolerance) {
+  for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
+    const std::int32_t p = pattern.row_position[o];
+    double scale = std::abs(values.diagonal[p] * x[p]) + std::abs(values.b[p]);
+    for (std::int32_t t = pattern.row_pointers[o]; t < pattern.row_pointers[o + 1]; ++t) {
+      const std::int32_t q = pattern.row_columns[t];
+      const double k = std::abs(values.row[t]);
+      scale += k * std::abs(x[q]);
+      if (!pattern.is_row(q)) scale += k * std::abs(values.b[q] / values.diagonal[q]);
+    }
+    tolerance[o] = relative * scale;
+  }
+}
+
+}  // namespace mlcp

@@ -1,0 +1,56 @@
+#pragma once
+#include "factorize/factor.h"
+#include "factorize/refinement.h"
+#include "solve/active_set.h"
+#include "solve/limits.h"
+
+namespace mlcp {
+
+/// Pivots at most this, relative to aᵢ, belong to a row that depends on the rows in the factor.
+constexpr double dependent_pivot = 1e-9;
+/// Bilateral rows, and rows that a refactorization finds active, are given up only below this, whatever the sign: rounded data
+/// has small pivots, and dropping them costs more than it saves.
+constexpr double lost_pivot = 1e-13;
+
+/// The active set and the factor of its KKT matrix, kept in step: what every method works on.
+/// invariant, per island: a row is in the factor if and only if its state is active.
+class Basis {
+ public:
+  explicit Basis(const Memory& m) : values(m), set(m), factor(m), refinement(m), factor_work_(m) {}
+
+  void prepare(const Problem& problem, const Analysis& analysis, const Settings& settings);
+
+  /// Factors the active rows of an island afresh. Rows that depend on others (pivot ≤ drop · a) go to rest.
+  /// false: a velocity's pivot is not positive, see Factor::failed_position.
+  bool refactorize(const Island& island, double drop, Counts& counts);
+  /// Takes row o in by a toggle, or afresh where a toggle is not safe or the settings ask so.
+  /// false: it turned out to depend on the active rows and rests.
+  bool activate(const Island& island, std::int32_t o, Counts& counts);
+  /// Takes row o out and puts it at rest in `to`.
+  void deactivate(const Island& island, std::int32_t o, ActiveSet::State to, Counts& counts);
+  /// Puts the rows listed at rest where each lies beyond its bound; by toggles or afresh, whichever touches less.
+  void deactivate_all(const Island& island, std::span<const std::int32_t> rows, Counts& counts);
+
+  /// The point of the active set: v and the active impulses from the linear system (3.2), refined; refactorized once if the factor has
+  /// drifted. Then w, and what counts as zero.
+  void solve_point(const Island& island, Counts& counts);
+
+  /// Slacks up to this, relative to the scale of their error, count as zero while solving.
+  double zero() const;
+
+  std::int32_t position(std::int32_t o) const { return pattern->row_position[o]; }
+  double gamma(std::int32_t o) const { return -set.x[position(o)]; }
+
+  const KktPattern* pattern = nullptr;
+  KktValues values;
+  ActiveSet set;
+  Factor factor;
+  Refinement refinement;
+
+ private:
+  void rest(std::int32_t o, ActiveSet::State to);
+  const Settings* settings_ = nullptr;
+  Array<std::int64_t> factor_work_;  // by island's first ordinal: entries that its last factorization touched
+};
+
+}  // namespace mlcp

@@ -1,0 +1,52 @@
+#include "solve/ratio_test.h"
+
+#include <cmath>
+
+namespace mlcp {
+namespace {
+
+/// Components of a direction below this, with rows scaled to a = 1, are rounding.
+constexpr double negligible = 1e-12;
+
+}  // namespace
+
+Step ratio_test(const Island& island, const Basis& basis, const Direction& direction, std::int32_t entering, mlcp_pivot_rule rule) {
+  const ActiveSet& set = basis.set;
+  const KktValues& k = basis.values;
+  Step step;
+  const auto row = [&](std::int32_t o) { return basis.pattern->node[basis.position(o)]; };
+  const auto offer = [&](double length, std::int32_t o, ActiveSet::State to) {
+    length = std::max(length, 0.0);
+    if (length < step.length || (length == step.length && (step.blocking < 0 || row(o) < row(step.blocking))))
+      step = {length, o, to};
+  };
+
+  const double per_unit = std::sqrt(k.a[entering] > 0 ? k.a[entering] : 1.0);
+  for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
+    if (set.state[o] != ActiveSet::active) continue;
+    const double slope = -direction.dx[basis.position(o)];
+    if (std::abs(slope) * std::sqrt(k.a[o]) <= negligible * per_unit) continue;
+    if (slope < 0 && k.lo[o] > -infinity) offer((k.lo[o] - basis.gamma(o)) / slope, o, ActiveSet::at_lower);
+    if (slope > 0 && k.hi[o] < infinity) offer((k.hi[o] - basis.gamma(o)) / slope, o, ActiveSet::at_upper);
+  }
+  if (rule == MLCP_PIVOT_PRINTED && !direction.dependent) {
+    for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
+      if (o == entering || k.lo[o] == k.hi[o] || set.deferred[o]) continue;
+      const double w = set.w[o], slope = direction.dw[o], zero = set.tolerance[o];
+      if (std::abs(slope) <= negligible * per_unit * std::sqrt(k.a[o])) continue;
+      if (set.state[o] == ActiveSet::at_lower && w >= -zero && slope < 0) offer(-w / slope, o, ActiveSet::active);
+      if (set.state[o] == ActiveSet::at_upper && w <= zero && slope > 0) offer(-w / slope, o, ActiveSet::active);
+    }
+  }
+  // the entering row arrives: at w = 0, or at its far bound; it wins ties, which ends the inner loop
+  const auto arrive = [&](double length, ActiveSet::State to) {
+    if (std::max(length, 0.0) <= step.length) step = {std::max(length, 0.0), entering, to};
+  };
+  if (!direction.dependent) arrive(-set.w[entering] / direction.dw[entering], ActiveSet::active);
+  const double gamma = basis.gamma(entering);
+  if (direction.sign > 0 && k.hi[entering] < infinity) arrive(k.hi[entering] - gamma, ActiveSet::at_upper);
+  if (direction.sign < 0 && k.lo[entering] > -infinity) arrive(gamma - k.lo[entering], ActiveSet::at_lower);
+  return step;
+}
+
+}  // namespace mlcp

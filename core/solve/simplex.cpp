@@ -1,0 +1,220 @@
+#include "solve/simplex.h"
+
+#include <cmath>
+
+namespace mlcp {
+namespace {
+
+/// Rounds of "solve the final active set afresh, look again": more than a few only when rounding is what is left.
+constexpr int most_rounds = 40;
+/// Disagreement of the two ways to the Schur pivot, relative to a, that shows a drifted factor.
+constexpr double drift = 1e-7;
+
+}  // namespace
+
+void Simplex::prepare(const Problem& problem, const Mask* enabled, const Settings& settings) {
+  problem_ = &problem;
+  enabled_ = enabled;
+  settings_ = &settings;
+  direction_.dx.assign(basis_.pattern->size(), 0.0);
+  direction_.dw.assign(basis_.pattern->rows(), 0.0);
+  rhs_.resize(basis_.pattern->size());
+}
+
+/// How far row o is from its complementarity condition, as the w that must go: > 0 means that the impulse has to grow.
+double Simplex::violation(std::int32_t o) const {
+  const ActiveSet& set = basis_.set;
+  if (basis_.values.lo[o] == basis_.values.hi[o] || set.deferred[o]) return 0;
+  const double w = set.w[o];
+  switch (set.state[o]) {
+    case ActiveSet::at_lower: return w < -set.tolerance[o] ? -w : 0;
+    case ActiveSet::at_upper: return w > set.tolerance[o] ? -w : 0;
+    case ActiveSet::out: return std::abs(w) > set.tolerance[o] ? -w : 0;
+    default: return 0;
+  }
+}
+
+/// The paper's "un qualsiasi k": the row with the largest |w|/√a, least index on ties.
+std::int32_t Simplex::entering_row(const Island& island) const {
+  std::int32_t best = -1;
+  double most = 0;
+  const auto row = [&](std::int32_t o) { return basis_.pattern->node[basis_.position(o)]; };
+  for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
+    const double w = violation(o);
+    if (w == 0) continue;
+    const double a = basis_.values.a[o], size = a > 0 ? std::abs(w) / std::sqrt(a) : infinity;
+    if (best < 0 || size > most || (size == most && row(o) < row(best))) {
+      best = o;
+      most = size;
+    }
+  }
+  return best;
+}
+
+/// Changes of x and w when the entering impulse moves by one unit: K dx = sign K(:,p) on what is in, dx_p = −sign.
+void Simplex::find_direction(const Island& island, std::int32_t entering, Counts& counts) {
+  const std::int32_t p = basis_.position(entering);
+  const double a = basis_.values.a[entering];
+  for (bool fresh = settings_->refactorize == MLCP_REFACTORIZE_ALWAYS;; fresh = true) {
+    const double schur = -basis_.factor.solve_row(island, p, direction_.dx.data(), counts.work);
+    double along = -basis_.values.diagonal[p];
+    const std::int32_t* columns = basis_.pattern->row_columns.data();
+    for (std::int32_t t = basis_.pattern->row_pointers[entering]; t < basis_.pattern->row_pointers[entering + 1]; ++t)
+      along += basis_.values.row[t] * direction_.dx[columns[t]];
+    direction_.schur = a > 0 ? along / a : 0;
+    if (fresh || std::abs(schur - along) <= drift * a) break;
+    ++counts.drifts;
+    basis_.refactorize(island, lost_pivot, counts);
+  }
+  direction_.dependent = !(direction_.schur > dependent_pivot);
+  direction_.dx[p] = -1;
+  if (direction_.sign < 0)
+    for (std::int32_t q = island.first; q < island.last; ++q) direction_.dx[q] = -direction_.dx[q];
+  // (3.3) for the change: dw = K(rows,:) dx on the rows that rest
+  const KktPattern& pattern = *basis_.pattern;
+  for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
+    if (basis_.set.state[o] == ActiveSet::active || direction_.dependent) {
+      direction_.dw[o] = 0;
+      continue;
+    }
+    double sum = 0;
+    for (std::int32_t t = pattern.row_pointers[o]; t < pattern.row_pointers[o + 1]; ++t)
+      sum += basis_.values.row[t] * direction_.dx[pattern.row_columns[t]];
+    direction_.dw[o] = sum;
+  }
+  if (!direction_.dependent) direction_.dw[entering] = direction_.sign * direction_.schur * a;
+  counts.work += pattern.row_pointers[island.last_row] - pattern.row_pointers[island.first_row];
+}
+
+void Simplex::advance(const Island& island, std::int32_t entering, double length) {
+  double* x = basis_.set.x.data();
+  double* w = basis_.set.w.data();
+  const std::int32_t p = basis_.position(entering);
+  if (length > 0) {
+    for (std::int32_t q = island.first; q < island.last; ++q)
+      if (basis_.factor.in(q) || q == p) x[q] += length * direction_.dx[q];
+    for (std::int32_t o = island.first_row; o < island.last_row; ++o) w[o] += length * direction_.dw[o];
+  }
+}
+
+/// Rows whose impulse has left its bounds go to rest there. false: there is none.
+bool Simplex::drop_beyond_bounds(const Island& island, Counts& counts) {
+  beyond_.clear();
+  for (std::int32_t o = island.first_row; o < island.last_row; ++o)
+    if (basis_.set.state[o] == ActiveSet::active && (basis_.gamma(o) < basis_.values.lo[o] || basis_.gamma(o) > basis_.values.hi[o]))
+      beyond_.push_back(o);
+  if (beyond_.empty()) return false;
+  basis_.deactivate_all(island, beyond_.span(), counts);
+  return true;
+}
+
+/// From any active mask to a point whose impulses are within their bounds: the active set only shrinks, so this ends.
+mlcp_outcome Simplex::start(const Island& island, Limits& limits, Counts& counts) {
+  if (!basis_.refactorize(island, lost_pivot, counts)) return MLCP_NOT_POSITIVE_DEFINITE;
+  do {
+    if (const mlcp_outcome stop = limits.check(counts, 0); stop != MLCP_SOLVED) return stop;
+    basis_.solve_point(island, counts);
+  } while (drop_beyond_bounds(island, counts));
+  return MLCP_SOLVED;
+}
+
+/// The inner loop of the pseudocode: drives one violated row to w = 0 or to its far bound.
+mlcp_outcome Simplex::treat(const Island& island, std::int32_t entering, Limits& limits, Counts& counts, Array<mlcp_pivot>* trace) {
+  const std::int32_t n = problem_->n();
+  const auto row = [&](std::int32_t o) { return o < 0 ? -1 : basis_.pattern->node[basis_.position(o)] - n; };
+  direction_.sign = basis_.set.w[entering] < 0 ? 1 : -1;
+  while (true) {
+    if (const mlcp_outcome stop = limits.check(counts, std::abs(basis_.set.w[entering])); stop != MLCP_SOLVED) return stop;
+    find_direction(island, entering, counts);
+    const Step step = ratio_test(island, basis_, direction_, entering, settings_->pivot_rule);
+    ++counts.pivots;
+    if (trace)
+      trace->push_back({island_index_, row(entering), row(step.blocking),
+                        static_cast<mlcp_row_state>(step.to == ActiveSet::active     ? MLCP_ROW_ACTIVE
+                                                    : step.to == ActiveSet::at_upper ? MLCP_ROW_AT_UPPER
+                                                                                     : MLCP_ROW_AT_LOWER),
+                        direction_.dependent, step.length * direction_.sign, basis_.set.w[entering], direction_.schur});
+    if (step.blocking < 0) {
+      if (certifying_ && certify(island, entering, counts)) return MLCP_INFEASIBLE;
+      basis_.set.deferred[entering] = 1;
+      return MLCP_SOLVED;
+    }
+    advance(island, entering, step.length);
+    if (step.blocking == entering) {
+      if (step.to == ActiveSet::active)
+        basis_.activate(island, entering, counts);
+      else
+        basis_.set.state[entering] = step.to;
+      basis_.set.w[entering] = step.to == ActiveSet::active ? 0 : basis_.set.w[entering];
+      return MLCP_SOLVED;
+    }
+    if (step.to == ActiveSet::active) {
+      basis_.activate(island, step.blocking, counts);
+    } else {
+      basis_.deactivate(island, step.blocking, step.to, counts);
+    }
+    basis_.set.w[step.blocking] = 0;
+  }
+}
+
+/// y = change of the impulses along the step on which nothing blocks; refined, since Jᵀy = 0 is asked to 1e-12.
+bool Simplex::certify(const Island& island, std::int32_t entering, Counts& counts) {
+  const KktPattern& pattern = *basis_.pattern;
+  const std::int32_t p = basis_.position(entering), n = problem_->n();
+  Array<double>& z = direction_.dx;
+  std::fill(rhs_.begin() + island.first, rhs_.begin() + island.last, 0.0);
+  for (std::int32_t t = pattern.row_pointers[entering]; t < pattern.row_pointers[entering + 1]; ++t)
+    rhs_[pattern.row_columns[t]] = basis_.values.row[t];
+  std::fill(z.begin() + island.first, z.begin() + island.last, 0.0);
+  basis_.refinement.solve(island, pattern, basis_.values, basis_.factor, rhs_.data(), z.data(), counts.refinements, counts.work);
+  const double per_unit = std::sqrt(basis_.values.a[entering]);
+  certificate_row.clear();
+  certificate_y.clear();
+  for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
+    const std::int32_t q = basis_.position(o);
+    if (o != entering && basis_.set.state[o] != ActiveSet::active) continue;
+    const double y = direction_.sign * (q == p ? 1.0 : -z[q]);
+    // the ratio test has shown that a sign against the bounds is rounding
+    const bool against = y > 0 ? basis_.values.hi[o] < infinity : basis_.values.lo[o] > -infinity;
+    if (o != entering && (against || std::abs(y) * std::sqrt(basis_.values.a[o]) <= 1e-15 * per_unit)) continue;
+    certificate_row.push_back(pattern.node[q] - n);
+    certificate_y.push_back(y);
+  }
+  return check_.holds(*problem_, enabled_, certificate_row.span(), certificate_y.span());
+}
+
+mlcp_outcome Simplex::solve(const Island& island, std::int32_t index, Limits& limits, Counts& counts, Array<mlcp_pivot>* trace) {
+  island_index_ = index;
+  certifying_ = true;
+  return run(island, limits, counts, trace);
+}
+
+void Simplex::settle(const Island& island, Limits& limits, Counts& counts) {
+  constexpr double softness = 1e-7;
+  basis_.values.soften(*problem_, *basis_.pattern, island.first_row, island.last_row, softness);
+  std::fill(basis_.set.deferred.begin() + island.first_row, basis_.set.deferred.begin() + island.last_row, 0);
+  certifying_ = false;
+  run(island, limits, counts, nullptr);
+  basis_.values.soften(*problem_, *basis_.pattern, island.first_row, island.last_row, 0);
+}
+
+/// Risolvi_LCP.
+mlcp_outcome Simplex::run(const Island& island, Limits& limits, Counts& counts, Array<mlcp_pivot>* trace) {
+  mlcp_outcome outcome = start(island, limits, counts);
+  if (outcome != MLCP_SOLVED) return outcome;
+  for (int round = 0; round < most_rounds; ++round) {
+    std::int64_t before = counts.pivots;
+    for (std::int32_t k = entering_row(island); k >= 0; k = entering_row(island)) {
+      outcome = treat(island, k, limits, counts, trace);
+      if (outcome != MLCP_SOLVED) break;
+    }
+    // the answer comes from the linear system of the final active set, not from the sum of the steps
+    do basis_.solve_point(island, counts);
+    while (drop_beyond_bounds(island, counts));
+    if (outcome != MLCP_SOLVED || (counts.pivots == before && round > 0)) break;
+    if (entering_row(island) < 0) break;
+  }
+  return outcome;
+}
+
+}  // namespace mlcp

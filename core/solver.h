@@ -1,0 +1,40 @@
+#pragma once
+#include <memory>
+#include <span>
+
+#include "assemble/mask.h"
+#include "assemble/problem.h"
+#include "report/result.h"
+#include "solve/settings.h"
+
+namespace mlcp {
+
+/// The phases in order: assemble → analyze → factorize → solve → report. Owns what survives from one call to the next.
+class Solver {
+ public:
+  Solver(const Settings& settings, const Memory& memory);
+  ~Solver();
+  Solver(const Solver&) = delete;
+  Solver& operator=(const Solver&) = delete;
+
+  const Memory& memory() const;
+  const Settings& settings() const;
+  void set_settings(const Settings& settings);  ///< fails: Error, nothing changed
+  void trim();
+
+  void analyze(const Problem& problem, const Mask* enabled);
+  /// report.struct_size is left alone, every other field is written.
+  void solve(const Problem& problem, const Mask* enabled, const Mask* start, mlcp_report& report);
+  const Result& result() const;
+
+  /// Elimination order of the last analysis: velocity j is j, row i is n + i; empty before the first one.
+  std::span<const std::int32_t> ordering() const;
+  /// The next analysis uses this order, if it is one for its pattern: every velocity and row it needs, each once.
+  void impose_ordering(std::span<const std::int32_t> ordering);
+
+ private:
+  struct State;
+  State* state_;
+};
+
+}  // namespace mlcp
