@@ -1,27 +1,31 @@
 #include "factorize/kkt_values.h"
 
+#include <cmath>
+
 namespace mlcp {
 
 void KktValues::load(const Problem& problem, const KktPattern& pattern) {
-  const std::int32_t n = pattern.n, size = pattern.size();
+  const std::int32_t n = pattern.n, positions = pattern.size();
   const double* mass = problem.mass.values.data();
   const double* jacobian = problem.jacobian.values.data();
   const double* sigma = problem.compliance.values.data();
   const SparseView j = problem.jacobian_view();
 
-  diagonal.resize(size);
-  b.resize(size);
-  for (std::int32_t p = 0; p < size; ++p) {
+  diagonal.resize(positions);
+  b.resize(positions);
+  size.resize(positions);
+  for (std::int32_t p = 0; p < positions; ++p) {
     const std::int32_t s = pattern.diagonal_source[p];
     if (pattern.is_row(p)) {
       diagonal[p] = s < 0 ? 0.0 : -sigma[s];
     } else {
       diagonal[p] = s < 0 ? 0.0 : mass[s];
       b[p] = problem.momentum[pattern.node[p]];
+      size[p] = std::abs(b[p]);
     }
   }
   lower.resize(pattern.lower_rows.size());
-  for (std::int32_t p = 0; p < size; ++p) {
+  for (std::int32_t p = 0; p < positions; ++p) {
     const bool column_is_row = pattern.is_row(p);
     for (std::int32_t t = pattern.lower_pointers[p]; t < pattern.lower_pointers[p + 1]; ++t) {
       const std::int32_t s = pattern.lower_source[t];
@@ -37,7 +41,7 @@ void KktValues::load(const Problem& problem, const KktPattern& pattern) {
   hi.resize(rows);
   for (std::int32_t o = 0; o < rows; ++o) {
     const std::int32_t p = pattern.row_position[o], i = pattern.node[p] - n;
-    double sum = -diagonal[p];
+    double sum = -diagonal[p], terms = 0;
     for (std::int32_t t = pattern.row_pointers[o]; t < pattern.row_pointers[o + 1]; ++t) {
       const std::int32_t q = pattern.row_columns[t], s = pattern.row_source[t];
       if (pattern.is_row(q)) {
@@ -45,6 +49,7 @@ void KktValues::load(const Problem& problem, const KktPattern& pattern) {
       } else {
         row[t] = jacobian[s];
         if (diagonal[q] > 0) sum += (row[t] / diagonal[q]) * row[t];
+        if (diagonal[q] > 0) terms += std::abs(row[t] * (b[q] / diagonal[q]));
       }
     }
     a[o] = sum;
@@ -54,6 +59,7 @@ void KktValues::load(const Problem& problem, const KktPattern& pattern) {
     for (std::int32_t t = j.pointers[i]; t < j.pointers[i + 1]; ++t)
       if (pattern.position[j.indices[t]] < 0) r -= j.values[t] * problem.given_velocity[j.indices[t]];
     b[p] = r;
+    size[p] = std::abs(r) + terms;
   }
 }
 

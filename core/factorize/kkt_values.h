@@ -12,10 +12,11 @@ struct KktValues {
   Array<double> diagonal;  ///< size
   Array<double> row;       ///< as KktPattern::row_columns
   Array<double> b;         ///< size
+  Array<double> size;      ///< |b|, for rows plus |J||v₀| with v₀ⱼ = kⱼ/Mⱼⱼ: terms that the error of a row is relative to
   Array<double> a;         ///< ordinals: aᵢ = Σⱼ Jᵢⱼ²/Mⱼⱼ + Σᵢᵢ over dynamic velocities
   Array<double> lo, hi;    ///< ordinals
 
-  explicit KktValues(const Memory& m) : lower(m), diagonal(m), row(m), b(m), a(m), lo(m), hi(m) {}
+  explicit KktValues(const Memory& m) : lower(m), diagonal(m), row(m), b(m), size(m), a(m), lo(m), hi(m) {}
 
   /// cost: O(entries of M, J and Σ).
   void load(const Problem& problem, const KktPattern& pattern);

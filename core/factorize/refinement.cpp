@@ -17,12 +17,12 @@ void Refinement::prepare(std::int32_t size) {
   best_.resize(size);
 }
 
-/// after: residual_ = b − K x, scale_ = |K||x| + |b| on the island.
+/// after: residual_ = b − K x, scale_ = |K||x| + size on the island.
 double Refinement::measure(const Island& island, const KktPattern& pattern, const KktValues& values, const Factor& factor,
-                           const double* b, const double* x, std::int64_t& work) {
+                           const double* b, const double* size, const double* x, std::int64_t& work) {
   for (std::int32_t p = island.first; p < island.last; ++p) {
     residual_[p] = static_cast<long double>(b[p]) - static_cast<long double>(values.diagonal[p]) * x[p];
-    scale_[p] = std::abs(b[p]) + std::abs(values.diagonal[p] * x[p]);
+    scale_[p] = size[p] + std::abs(values.diagonal[p] * x[p]);
   }
   for (std::int32_t p = island.first; p < island.last; ++p) {
     for (std::int32_t t = pattern.lower_pointers[p]; t < pattern.lower_pointers[p + 1]; ++t) {
@@ -45,11 +45,11 @@ double Refinement::measure(const Island& island, const KktPattern& pattern, cons
 }
 
 double Refinement::solve(const Island& island, const KktPattern& pattern, const KktValues& values, const Factor& factor,
-                         const double* b, double* x, std::int64_t& steps, std::int64_t& work) {
+                         const double* b, const double* size, double* x, std::int64_t& steps, std::int64_t& work) {
   for (std::int32_t p = island.first; p < island.last; ++p)
     if (factor.in(p)) x[p] = 0;
   double error = 1;
-  measure(island, pattern, values, factor, b, x, work);
+  measure(island, pattern, values, factor, b, size, x, work);
   for (int step = 0;; ++step) {
     for (std::int32_t p = island.first; p < island.last; ++p) {
       correction_[p] = static_cast<double>(residual_[p]);
@@ -58,7 +58,7 @@ double Refinement::solve(const Island& island, const KktPattern& pattern, const 
     factor.solve(island, correction_.data(), work);
     for (std::int32_t p = island.first; p < island.last; ++p)
       if (factor.in(p)) x[p] += correction_[p];
-    const double now = measure(island, pattern, values, factor, b, x, work);
+    const double now = measure(island, pattern, values, factor, b, size, x, work);
     if (step > 0 && !(now < error)) {
       std::copy(best_.begin() + island.first, best_.begin() + island.last, x + island.first);
       return error;

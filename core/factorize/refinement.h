@@ -11,13 +11,14 @@ class Refinement {
   void prepare(std::int32_t size);
 
   /// b: right-hand side by position. x: on entry the values of what is out (−γ of rows at a bound); on return also of what is in.
-  /// returns the componentwise backward error maxᵢ |b − K x|ᵢ / (|K||x| + |b|)ᵢ reached. steps counts solves after the first.
+  /// size: magnitude of the terms besides |K||x|, |b| or more.
+  /// returns the componentwise backward error maxᵢ |b − K x|ᵢ / (|K||x| + size)ᵢ reached. steps counts solves after the first.
   double solve(const Island& island, const KktPattern& pattern, const KktValues& values, const Factor& factor,
-               const double* b, double* x, std::int64_t& steps, std::int64_t& work);
+               const double* b, const double* size, double* x, std::int64_t& steps, std::int64_t& work);
 
  private:
   double measure(const Island& island, const KktPattern& pattern, const KktValues& values, const Factor& factor,
-                 const double* b, const double* x, std::int64_t& work);
+                 const double* b, const double* size, const double* x, std::int64_t& work);
 
   Array<long double> residual_;
   Array<double> scale_, correction_, best_;

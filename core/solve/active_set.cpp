@@ -54,13 +54,9 @@ void slack_tolerances(const Island& island, const KktPattern& pattern, const Kkt
                       double* tolerance) {
   for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
     const std::int32_t p = pattern.row_position[o];
-    double scale = std::abs(values.diagonal[p] * x[p]) + std::abs(values.b[p]);
-    for (std::int32_t t = pattern.row_pointers[o]; t < pattern.row_pointers[o + 1]; ++t) {
-      const std::int32_t q = pattern.row_columns[t];
-      const double k = std::abs(values.row[t]);
-      scale += k * std::abs(x[q]);
-      if (!pattern.is_row(q)) scale += k * std::abs(values.b[q] / values.diagonal[q]);
-    }
+    double scale = std::abs(values.diagonal[p] * x[p]) + values.size[p];
+    for (std::int32_t t = pattern.row_pointers[o]; t < pattern.row_pointers[o + 1]; ++t)
+      scale += std::abs(values.row[t] * x[pattern.row_columns[t]]);
     tolerance[o] = relative * scale;
   }
 }

@@ -19,6 +19,7 @@ void Basis::prepare(const Problem& problem, const Analysis& analysis, const Sett
   factor.prepare(*pattern, analysis.symbolic, values);
   refinement.prepare(pattern->size());
   factor_work_.assign(pattern->rows() + 1, 0);
+  toggled_.assign(pattern->rows() + 1, 0);
 }
 
 double Basis::zero() const { return std::clamp(settings_->tolerance * 1e-4, 2e-15, 1e-13); }
@@ -35,6 +36,7 @@ bool Basis::refactorize(const Island& island, double drop, Counts& counts) {
   const std::int64_t before = counts.work;
   const FactorStatus status = factor.factorize(island, set.wanted.data(), drop, counts.work);
   factor_work_[island.first_row] = counts.work - before;
+  toggled_[island.first_row] = 0;
   ++counts.factorizations;
   for (std::int32_t o = island.first_row; o < island.last_row; ++o)
     if (set.state[o] == ActiveSet::active && !factor.in(position(o))) rest(o, ActiveSet::resting(values.lo[o], values.hi[o]));
@@ -42,12 +44,17 @@ bool Basis::refactorize(const Island& island, double drop, Counts& counts) {
   return status == FactorStatus::ok;
 }
 
+void Basis::count_toggle(const Island& island, Counts& counts) {
+  ++counts.toggles;
+  ++toggled_[island.first_row];
+}
+
 bool Basis::activate(const Island& island, std::int32_t o, Counts& counts) {
   set.state[o] = ActiveSet::active;
   if (settings_->refactorize == MLCP_REFACTORIZE_ALWAYS || factor.insert(position(o), counts.work) != FactorStatus::ok)
     refactorize(island, lost_pivot, counts);
   else
-    ++counts.toggles;
+    count_toggle(island, counts);
   return set.state[o] == ActiveSet::active;
 }
 
@@ -56,7 +63,7 @@ void Basis::deactivate(const Island& island, std::int32_t o, ActiveSet::State to
   if (settings_->refactorize == MLCP_REFACTORIZE_ALWAYS || factor.remove(position(o), counts.work) != FactorStatus::ok)
     refactorize(island, lost_pivot, counts);
   else
-    ++counts.toggles;
+    count_toggle(island, counts);
 }
 
 void Basis::deactivate_all(const Island& island, std::span<const std::int32_t> rows, Counts& counts) {
@@ -74,11 +81,13 @@ void Basis::deactivate_all(const Island& island, std::span<const std::int32_t> r
 }
 
 void Basis::solve_point(const Island& island, Counts& counts) {
-  double error = refinement.solve(island, *pattern, values, factor, values.b.data(), set.x.data(), counts.refinements, counts.work);
-  if (!(error <= drifted) && settings_->refactorize != MLCP_REFACTORIZE_ALWAYS) {
+  const auto refined = [&] {
+    return refinement.solve(island, *pattern, values, factor, values.b.data(), values.size.data(), set.x.data(), counts.refinements, counts.work);
+  };
+  if (!(refined() <= drifted) && toggled_[island.first_row] > 0) {
     ++counts.drifts;
     refactorize(island, lost_pivot, counts);
-    error = refinement.solve(island, *pattern, values, factor, values.b.data(), set.x.data(), counts.refinements, counts.work);
+    refined();
   }
   slacks(island, *pattern, values, set.x.data(), set.w.data());
   slack_tolerances(island, *pattern, values, set.x.data(), zero(), set.tolerance.data());

@@ -16,7 +16,7 @@ constexpr double lost_pivot = 1e-13;
 /// invariant, per island: a row is in the factor if and only if its state is active.
 class Basis {
  public:
-  explicit Basis(const Memory& m) : values(m), set(m), factor(m), refinement(m), factor_work_(m) {}
+  explicit Basis(const Memory& m) : values(m), set(m), factor(m), refinement(m), toggled_(m), factor_work_(m) {}
 
   void prepare(const Problem& problem, const Analysis& analysis, const Settings& settings);
 
@@ -48,8 +48,10 @@ class Basis {
   Refinement refinement;
 
  private:
+  void count_toggle(const Island& island, Counts& counts);
   void rest(std::int32_t o, ActiveSet::State to);
   const Settings* settings_ = nullptr;
+  Array<std::int32_t> toggled_;      // by island's first ordinal: toggles since the last factorization
   Array<std::int64_t> factor_work_;  // by island's first ordinal: entries that its last factorization touched
 };
 

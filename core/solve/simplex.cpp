@@ -7,6 +7,10 @@ namespace {
 
 /// Rounds of "solve the final active set afresh, look again": more than a few only when rounding is what is left.
 constexpr int most_rounds = 40;
+/// A row that enters this often is one of a nearly dependent pair that replace each other: then both must be able to stay.
+constexpr std::int32_t often = 4;
+/// Directions of rows whose Schur pivot is below this, relative to a, are refined: their w and γ hang on its last digits.
+constexpr double delicate = 1e-7;
 /// Disagreement of the two ways to the Schur pivot, relative to a, that shows a drifted factor.
 constexpr double drift = 1e-7;
 
@@ -19,6 +23,8 @@ void Simplex::prepare(const Problem& problem, const Mask* enabled, const Setting
   direction_.dx.assign(basis_.pattern->size(), 0.0);
   direction_.dw.assign(basis_.pattern->rows(), 0.0);
   rhs_.resize(basis_.pattern->size());
+  rhs_size_.resize(basis_.pattern->size());
+  entered_.assign(basis_.pattern->rows(), 0);
 }
 
 /// How far row o is from its complementarity condition, as the w that must go: > 0 means that the impulse has to grow.
@@ -51,35 +57,54 @@ std::int32_t Simplex::entering_row(const Island& island) const {
   return best;
 }
 
+/// w of a unit of impulse on the entering row, z = K⁻¹ K(:,p) given: K(p,:) z − K_pp.
+double Simplex::pivot_along(std::int32_t entering, const double* z) const {
+  const KktPattern& pattern = *basis_.pattern;
+  double sum = -basis_.values.diagonal[basis_.position(entering)];
+  for (std::int32_t t = pattern.row_pointers[entering]; t < pattern.row_pointers[entering + 1]; ++t)
+    sum += basis_.values.row[t] * z[pattern.row_columns[t]];
+  return sum;
+}
+
+void Simplex::refine_direction(const Island& island, std::int32_t entering, Counts& counts) {
+  const KktPattern& pattern = *basis_.pattern;
+  Array<double>& z = direction_.dx;
+  std::fill(rhs_.begin() + island.first, rhs_.begin() + island.last, 0.0);
+  std::fill(z.begin() + island.first, z.begin() + island.last, 0.0);
+  for (std::int32_t t = pattern.row_pointers[entering]; t < pattern.row_pointers[entering + 1]; ++t)
+    rhs_[pattern.row_columns[t]] = basis_.values.row[t];
+  for (std::int32_t q = island.first; q < island.last; ++q) rhs_size_[q] = std::abs(rhs_[q]);
+  basis_.refinement.solve(island, pattern, basis_.values, basis_.factor, rhs_.data(), rhs_size_.data(), z.data(), counts.refinements, counts.work);
+}
+
 /// Changes of x and w when the entering impulse moves by one unit: K dx = sign K(:,p) on what is in, dx_p = −sign.
 void Simplex::find_direction(const Island& island, std::int32_t entering, Counts& counts) {
   const std::int32_t p = basis_.position(entering);
   const double a = basis_.values.a[entering];
+  double* dx = direction_.dx.data();
   for (bool fresh = settings_->refactorize == MLCP_REFACTORIZE_ALWAYS;; fresh = true) {
-    const double schur = -basis_.factor.solve_row(island, p, direction_.dx.data(), counts.work);
-    double along = -basis_.values.diagonal[p];
-    const std::int32_t* columns = basis_.pattern->row_columns.data();
-    for (std::int32_t t = basis_.pattern->row_pointers[entering]; t < basis_.pattern->row_pointers[entering + 1]; ++t)
-      along += basis_.values.row[t] * direction_.dx[columns[t]];
-    direction_.schur = a > 0 ? along / a : 0;
-    if (fresh || std::abs(schur - along) <= drift * a) break;
+    const double schur = -basis_.factor.solve_row(island, p, dx, counts.work);
+    direction_.schur = pivot_along(entering, dx);
+    if (fresh || std::abs(schur - direction_.schur) <= drift * a) break;
     ++counts.drifts;
     basis_.refactorize(island, lost_pivot, counts);
   }
-  direction_.dependent = !(direction_.schur > dependent_pivot);
-  direction_.dx[p] = -1;
+  if (std::abs(direction_.schur) <= delicate * a) {
+    refine_direction(island, entering, counts);
+    direction_.schur = pivot_along(entering, dx);
+  }
+  direction_.schur = a > 0 ? direction_.schur / a : 0;
+  direction_.dependent = !(direction_.schur > dependent_);
+  dx[p] = -1;
   if (direction_.sign < 0)
-    for (std::int32_t q = island.first; q < island.last; ++q) direction_.dx[q] = -direction_.dx[q];
+    for (std::int32_t q = island.first; q < island.last; ++q) dx[q] = -dx[q];
   // (3.3) for the change: dw = K(rows,:) dx on the rows that rest
   const KktPattern& pattern = *basis_.pattern;
   for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
-    if (basis_.set.state[o] == ActiveSet::active || direction_.dependent) {
-      direction_.dw[o] = 0;
-      continue;
-    }
     double sum = 0;
-    for (std::int32_t t = pattern.row_pointers[o]; t < pattern.row_pointers[o + 1]; ++t)
-      sum += basis_.values.row[t] * direction_.dx[pattern.row_columns[t]];
+    if (basis_.set.state[o] != ActiveSet::active && !direction_.dependent)
+      for (std::int32_t t = pattern.row_pointers[o]; t < pattern.row_pointers[o + 1]; ++t)
+        sum += basis_.values.row[t] * dx[pattern.row_columns[t]];
     direction_.dw[o] = sum;
   }
   if (!direction_.dependent) direction_.dw[entering] = direction_.sign * direction_.schur * a;
@@ -135,7 +160,7 @@ mlcp_outcome Simplex::treat(const Island& island, std::int32_t entering, Limits&
                                                                                      : MLCP_ROW_AT_LOWER),
                         direction_.dependent, step.length * direction_.sign, basis_.set.w[entering], direction_.schur});
     if (step.blocking < 0) {
-      if (certifying_ && certify(island, entering, counts)) return MLCP_INFEASIBLE;
+      if (certifying_ && certify(island, entering)) return MLCP_INFEASIBLE;
       basis_.set.deferred[entering] = 1;
       return MLCP_SOLVED;
     }
@@ -158,26 +183,18 @@ mlcp_outcome Simplex::treat(const Island& island, std::int32_t entering, Limits&
 }
 
 /// y = change of the impulses along the step on which nothing blocks; refined, since Jᵀy = 0 is asked to 1e-12.
-bool Simplex::certify(const Island& island, std::int32_t entering, Counts& counts) {
+bool Simplex::certify(const Island& island, std::int32_t entering) {
   const KktPattern& pattern = *basis_.pattern;
-  const std::int32_t p = basis_.position(entering), n = problem_->n();
-  Array<double>& z = direction_.dx;
-  std::fill(rhs_.begin() + island.first, rhs_.begin() + island.last, 0.0);
-  for (std::int32_t t = pattern.row_pointers[entering]; t < pattern.row_pointers[entering + 1]; ++t)
-    rhs_[pattern.row_columns[t]] = basis_.values.row[t];
-  std::fill(z.begin() + island.first, z.begin() + island.last, 0.0);
-  basis_.refinement.solve(island, pattern, basis_.values, basis_.factor, rhs_.data(), z.data(), counts.refinements, counts.work);
   const double per_unit = std::sqrt(basis_.values.a[entering]);
   certificate_row.clear();
   certificate_y.clear();
   for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
-    const std::int32_t q = basis_.position(o);
     if (o != entering && basis_.set.state[o] != ActiveSet::active) continue;
-    const double y = direction_.sign * (q == p ? 1.0 : -z[q]);
+    const double y = -direction_.dx[basis_.position(o)];
     // the ratio test has shown that a sign against the bounds is rounding
     const bool against = y > 0 ? basis_.values.hi[o] < infinity : basis_.values.lo[o] > -infinity;
     if (o != entering && (against || std::abs(y) * std::sqrt(basis_.values.a[o]) <= 1e-15 * per_unit)) continue;
-    certificate_row.push_back(pattern.node[q] - n);
+    certificate_row.push_back(pattern.node[basis_.position(o)] - problem_->n());
     certificate_y.push_back(y);
   }
   return check_.holds(*problem_, enabled_, certificate_row.span(), certificate_y.span());
@@ -198,21 +215,30 @@ void Simplex::settle(const Island& island, Limits& limits, Counts& counts) {
   basis_.values.soften(*problem_, *basis_.pattern, island.first_row, island.last_row, 0);
 }
 
+/// A nearly dependent pair of rows may replace each other for ever; then a row counts as dependent only at a smaller pivot.
+void Simplex::tighten(const Island& island) {
+  if (dependent_ <= lost_pivot) return;
+  dependent_ *= 0.1;
+  std::fill(basis_.set.deferred.begin() + island.first_row, basis_.set.deferred.begin() + island.last_row, 0);
+  std::fill(entered_.begin() + island.first_row, entered_.begin() + island.last_row, 0);
+}
+
 /// Risolvi_LCP.
 mlcp_outcome Simplex::run(const Island& island, Limits& limits, Counts& counts, Array<mlcp_pivot>* trace) {
+  dependent_ = dependent_pivot;
+  std::fill(entered_.begin() + island.first_row, entered_.begin() + island.last_row, 0);
   mlcp_outcome outcome = start(island, limits, counts);
   if (outcome != MLCP_SOLVED) return outcome;
   for (int round = 0; round < most_rounds; ++round) {
-    std::int64_t before = counts.pivots;
     for (std::int32_t k = entering_row(island); k >= 0; k = entering_row(island)) {
+      if (++entered_[k] > often) tighten(island);
       outcome = treat(island, k, limits, counts, trace);
       if (outcome != MLCP_SOLVED) break;
     }
     // the answer comes from the linear system of the final active set, not from the sum of the steps
     do basis_.solve_point(island, counts);
     while (drop_beyond_bounds(island, counts));
-    if (outcome != MLCP_SOLVED || (counts.pivots == before && round > 0)) break;
-    if (entering_row(island) < 0) break;
+    if (outcome != MLCP_SOLVED || entering_row(island) < 0) break;
   }
   return outcome;
 }

@@ -15,7 +15,7 @@ namespace mlcp {
 class Simplex {
  public:
   Simplex(const Memory& m, Basis& basis)
-      : certificate_row(m), certificate_y(m), basis_(basis), direction_(m), check_(m), beyond_(m), rhs_(m) {}
+      : certificate_row(m), certificate_y(m), basis_(basis), direction_(m), check_(m), beyond_(m), rhs_(m), rhs_size_(m), entered_(m) {}
 
   void prepare(const Problem& problem, const Mask* enabled, const Settings& settings);
 
@@ -35,17 +35,22 @@ class Simplex {
   mlcp_outcome start(const Island& island, Limits& limits, Counts& counts);
   mlcp_outcome treat(const Island& island, std::int32_t entering, Limits& limits, Counts& counts, Array<mlcp_pivot>* trace);
   std::int32_t entering_row(const Island& island) const;
+  double pivot_along(std::int32_t entering, const double* z) const;
+  void refine_direction(const Island& island, std::int32_t entering, Counts& counts);
   void find_direction(const Island& island, std::int32_t entering, Counts& counts);
   void advance(const Island& island, std::int32_t entering, double length);
   bool drop_beyond_bounds(const Island& island, Counts& counts);
-  bool certify(const Island& island, std::int32_t entering, Counts& counts);
+  bool certify(const Island& island, std::int32_t entering);
+  void tighten(const Island& island);
   double violation(std::int32_t o) const;
 
   Basis& basis_;
   Direction direction_;
   CertificateCheck check_;
   Array<std::int32_t> beyond_;
-  Array<double> rhs_;
+  Array<double> rhs_, rhs_size_;
+  Array<std::int32_t> entered_;      // how often a row has entered
+  double dependent_ = dependent_pivot;
   const Problem* problem_ = nullptr;
   const Mask* enabled_ = nullptr;
   const Settings* settings_ = nullptr;
