@@ -1,5 +1,6 @@
 #include "factorize/refinement.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace mlcp {
@@ -7,6 +8,8 @@ namespace {
 
 constexpr double rounding = 2.5e-16;
 constexpr int most_steps = 6;
+/// Rows with an error up to this are right; those above are worth correcting alone.
+constexpr double noisy = 1e-13;
 
 }  // namespace
 
@@ -36,37 +39,73 @@ double Refinement::measure(const Island& island, const KktPattern& pattern, cons
   }
   work += 2 * (pattern.lower_pointers[island.last] - pattern.lower_pointers[island.first]);
   double worst = 0;
+  off_ = 0;
   for (std::int32_t p = island.first; p < island.last; ++p) {
     if (!factor.in(p)) continue;
     const double e = std::abs(static_cast<double>(residual_[p])), relative = scale_[p] > 0 ? e / scale_[p] : e;
     worst = relative <= worst ? worst : relative;  // keeps NaN
+    off_ += relative > noisy;
   }
   return worst;
 }
 
+/// Corrects rows alone. A velocity that its row holds near 0 comes out as rounding of the impulses around it, far larger than the row's own
+/// terms. With the momentum residual, which is rounding by now, left out of the right-hand side, the correction is as small as
+/// the row's residual and leaves momentum as it is (M δv = Jᵀδγ). What then is left far below the rounding of momentum, in a row that is
+/// still off, is 0: the row holds it exactly there.
+void Refinement::polish_rows(const Island& island, const KktPattern& pattern, const KktValues& values, const Factor& factor,
+                             const double* b, const double* size, double* x, std::int64_t& work) {
+  for (int step = 0; step < 2; ++step) {
+    for (std::int32_t p = island.first; p < island.last; ++p)
+      correction_[p] = pattern.is_row(p) ? static_cast<double>(residual_[p]) : 0.0;
+    factor.solve(island, correction_.data(), work);
+    for (std::int32_t p = island.first; p < island.last; ++p)
+      if (factor.in(p)) x[p] += correction_[p];
+    measure(island, pattern, values, factor, b, size, x, work);
+  }
+  for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
+    const std::int32_t p = pattern.row_position[o];
+    if (!factor.in(p) || std::abs(static_cast<double>(residual_[p])) <= noisy * scale_[p]) continue;
+    for (std::int32_t t = pattern.row_pointers[o]; t < pattern.row_pointers[o + 1]; ++t) {
+      const std::int32_t q = pattern.row_columns[t];
+      if (!pattern.is_row(q) && std::abs(values.diagonal[q] * x[q]) <= 1e-3 * rounding * scale_[q]) x[q] = 0;
+    }
+  }
+}
+
+/// Solve and correct until rounding is reached or a step no longer helps; then, if rows are still off, polish them.
 double Refinement::solve(const Island& island, const KktPattern& pattern, const KktValues& values, const Factor& factor,
                          const double* b, const double* size, double* x, std::int64_t& steps, std::int64_t& work) {
   for (std::int32_t p = island.first; p < island.last; ++p)
     if (factor.in(p)) x[p] = 0;
-  double error = 1;
-  measure(island, pattern, values, factor, b, size, x, work);
-  for (int step = 0;; ++step) {
-    for (std::int32_t p = island.first; p < island.last; ++p) {
-      correction_[p] = static_cast<double>(residual_[p]);
-      best_[p] = x[p];
-    }
+  double error = measure(island, pattern, values, factor, b, size, x, work);
+  const auto keep = [&] { std::copy(x + island.first, x + island.last, best_.begin() + island.first); };
+  const auto go_back = [&] {
+    std::copy(best_.begin() + island.first, best_.begin() + island.last, x + island.first);
+    return measure(island, pattern, values, factor, b, size, x, work);
+  };
+  for (int step = 0; step <= most_steps; ++step) {
+    keep();
+    for (std::int32_t p = island.first; p < island.last; ++p) correction_[p] = static_cast<double>(residual_[p]);
     factor.solve(island, correction_.data(), work);
     for (std::int32_t p = island.first; p < island.last; ++p)
       if (factor.in(p)) x[p] += correction_[p];
+    steps += step > 0;
     const double now = measure(island, pattern, values, factor, b, size, x, work);
     if (step > 0 && !(now < error)) {
-      std::copy(best_.begin() + island.first, best_.begin() + island.last, x + island.first);
-      return error;
+      error = go_back();
+      break;
     }
     error = now;
-    if (error <= rounding || step == most_steps) return error;
-    ++steps;
+    if (error <= rounding) return error;
   }
+  if (off_ == 0) return error;
+  const std::int32_t off = off_;
+  keep();
+  ++steps;
+  polish_rows(island, pattern, values, factor, b, size, x, work);
+  const double now = measure(island, pattern, values, factor, b, size, x, work);
+  return off_ < off || now < error ? now : go_back();
 }
 
 }  // namespace mlcp

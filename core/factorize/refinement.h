@@ -17,9 +17,12 @@ class Refinement {
                const double* b, const double* size, double* x, std::int64_t& steps, std::int64_t& work);
 
  private:
+  void polish_rows(const Island& island, const KktPattern& pattern, const KktValues& values, const Factor& factor, const double* b,
+                   const double* size, double* x, std::int64_t& work);
   double measure(const Island& island, const KktPattern& pattern, const KktValues& values, const Factor& factor,
                  const double* b, const double* size, const double* x, std::int64_t& work);
 
+  std::int32_t off_ = 0;  // rows whose error is above `noisy`, by the last measure
   Array<long double> residual_;
   Array<double> scale_, correction_, best_;
 };
