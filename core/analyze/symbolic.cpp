@@ -23,6 +23,16 @@ void Symbolic::build(const KktPattern& pattern, const EliminationTree& tree) {
   end_.assign(pointers.span().first(size));
   for_each_entry([&](std::int32_t column, std::int32_t row) { rows[end_[column]++] = row; });
 
+  // p + 1 is p's parent and has one row less: then it has the same ones
+  run_end.resize(size);
+  for (std::int32_t p = size - 1; p >= 0; --p) {
+    const bool nests = p + 1 < size && parent[p] == p + 1 && pointers[p + 1] - pointers[p] == pointers[p + 2] - pointers[p + 1] + 1;
+    run_end[p] = nests ? run_end[p + 1] : p + 1;
+  }
+
+  run_start.resize(size);
+  for (std::int32_t p = 0; p < size; ++p) run_start[p] = p > 0 && run_end[p - 1] == run_end[p] ? run_start[p - 1] : p;
+
   islands.clear();
   std::int32_t first = 0, first_row = 0, row = 0;
   for (std::int32_t p = 0; p < size; ++p) {

@@ -16,8 +16,10 @@ struct Symbolic {
   Array<std::int32_t> parent;
   Array<std::int64_t> pointers;
   Array<std::int32_t> rows;
+  Array<std::int32_t> run_end;  ///< columns p .. run_end[p] − 1 nest: each has the rows of the one before without its own (a supernode)
+  Array<std::int32_t> run_start;
   Array<Island> islands;
-  explicit Symbolic(const Memory& m) : parent(m), pointers(m), rows(m), islands(m), mark_(m), end_(m) {}
+  explicit Symbolic(const Memory& m) : parent(m), pointers(m), rows(m), run_end(m), run_start(m), islands(m), mark_(m), end_(m) {}
 
   std::int32_t size() const { return static_cast<std::int32_t>(parent.size()); }
   std::int64_t entries() const { return pointers.empty() ? 0 : pointers.back(); }

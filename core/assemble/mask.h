@@ -1,4 +1,5 @@
 #pragma once
+#include "assemble/keys.h"
 #include "memory/array.h"
 #include "memory/error.h"
 
@@ -14,5 +15,26 @@ struct Mask {
 
   explicit Mask(const Memory& m) : memory(m), state(m), key(m) {}
 };
+
+/// Makes the mask `count` rows long; new rows get `state`, no key.
+void mask_resize(Mask& mask, std::int32_t count, mlcp_row_state state);
+void mask_set(Mask& mask, std::int32_t first, std::int32_t count, const mlcp_row_state* states);
+void mask_get(const Mask& mask, std::int32_t first, std::int32_t count, mlcp_row_state* states);
+std::int32_t mask_count(const Mask& mask, mlcp_row_state state);
+/// States only.
+bool mask_equal(const Mask& a, const Mask& b);
+/// The keys of the problem's rows; fails: RANGE, the sizes differ.
+void mask_take_keys(Mask& mask, const Problem& problem);
+
+/// Scratch of mask_carry.
+struct CarryWorkspace {
+  KeyTable table;
+  Array<mlcp_row_state> state;
+  explicit CarryWorkspace(const Memory& memory) : table(memory), state(memory) {}
+};
+
+/// States and keys for the rows of `problem`: the state that the row with the same key had in `previous`, else `otherwise`.
+/// `previous` may be the mask itself.      cost: expected O(m).
+void mask_carry(Mask& mask, const Problem& problem, const Mask& previous, mlcp_row_state otherwise, CarryWorkspace& work);
 
 }  // namespace mlcp

@@ -35,14 +35,17 @@ struct Body {
   std::int32_t sparse = 0;     ///< 0: dense mass; else 1 + the mlcp_triangle that the caller stores
 };
 
-/// What edits write to before they change anything. Holds nothing between two calls.
+/// What edits write to before they change anything. Holds nothing between two calls, so a copy is empty.
 struct EditWorkspace {
+  Memory memory;
   Marker marker;
   Array<std::int32_t> index, slot;
   Array<double> value;
   SparseArrays expanded, sorted;
-  explicit EditWorkspace(const Memory& memory)
-      : marker(memory), index(memory), slot(memory), value(memory), expanded(memory), sorted(memory) {}
+  explicit EditWorkspace(const Memory& m)
+      : memory(m), marker(m), index(m), slot(m), value(m), expanded(m), sorted(m) {}
+  EditWorkspace(const EditWorkspace& other) : EditWorkspace(other.memory) {}
+  EditWorkspace& operator=(const EditWorkspace&) { return *this; }
 };
 
 /// M v − Jᵀγ = k, J v + Σγ − r = w with bounds on γ, as the caller sees it. Valid at all times: every edit checks its

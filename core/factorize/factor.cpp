@@ -20,6 +20,7 @@ void Factor::prepare(const KktPattern& pattern, const Symbolic& symbolic, const 
   head_.resize(size);
   cursor_.resize(size);
   y_.assign(size, 0.0);
+  gathered_.resize(size);
   mark_.assign(size, -1);
   reach_.resize(size);
 }
@@ -107,6 +108,17 @@ std::int32_t Factor::reach(std::int32_t p, std::int32_t below, std::int32_t last
   return top;
 }
 
+/// The reached columns in stretches of one run each; their marks are reset.
+template <class Visit>
+void Factor::for_each_stretch(std::int32_t top, std::int32_t last, Visit visit) {
+  while (top < last) {
+    const std::int32_t first = reach_[top], end = symbolic_->run_end[first];
+    std::int32_t next = first;
+    for (; top < last && reach_[top] == next && next < end; ++top) mark_[next++] = -1;
+    visit(stretch(first, next));
+  }
+}
+
 std::int64_t Factor::entry(std::int32_t column, std::int32_t row) const {
   const std::int32_t* rows = symbolic_->rows.data();
   const std::int32_t* first = rows + symbolic_->pointers[column];
@@ -125,27 +137,84 @@ void Factor::clear_row(std::int32_t p, std::int64_t& work) {
     for (std::int32_t q = pattern_->upper_rows[t]; q >= 0 && q < p && mark_[q] == p; q = symbolic_->parent[q]) mark_[q] = -1;
 }
 
+Factor::Stretch Factor::stretch(std::int32_t first, std::int32_t last) const {
+  const std::int64_t start = symbolic_->pointers[first];
+  return {first, last, symbolic_->pointers[first + 1] - start, symbolic_->rows.data() + start};
+}
+
+template <class Visit>
+void Factor::forward(const Stretch& s, double* y, std::int64_t& work, Visit visit) const {
+  if (s.last - s.first == 1) {
+    const std::int32_t j = s.first;
+    if (!in_[j] || y[j] == 0) return;
+    const double f = y[j] * inverse_[j];
+    kernels::scatter_subtract(s.count, s.rows, column(j), f, y);
+    work += s.count;
+    visit(j, f, y[j]);
+    return;
+  }
+  double* dense = gathered(s.first);
+  kernels::gather(s.count, s.rows, y, dense);
+  for (std::int32_t j = s.first; j < s.last; ++j) {
+    const std::int64_t k = j - s.first;
+    const double yj = k ? dense[k - 1] : y[j];
+    if (!in_[j] || yj == 0) continue;
+    const double f = yj * inverse_[j];
+    kernels::subtract(s.count - k, column(j), f, dense + k);
+    work += s.count - k;
+    visit(j, f, yj);
+  }
+  kernels::scatter(s.count, s.rows, dense, y);
+}
+
+void Factor::backward(const Stretch& s, double* x, std::int64_t& work) const {
+  std::int32_t j = s.last - 1;
+  while (j >= s.first && !in_[j]) --j;
+  if (j < s.first) return;
+  if (j == s.first) {
+    x[j] = inverse_[j] * (x[j] - kernels::gather_dot(s.count, s.rows, column(j), x));
+    work += s.count;
+    return;
+  }
+  double* dense = gathered(s.first);
+  kernels::gather(s.count, s.rows, x, dense);
+  for (; j >= s.first; --j) {
+    if (!in_[j]) continue;
+    const std::int64_t k = j - s.first;
+    x[j] = inverse_[j] * (x[j] - kernels::dot(s.count - k, column(j), dense + k));
+    if (k) dense[k - 1] = x[j];
+    work += s.count - k;
+  }
+}
+
 /// Trailing matrix += σ w wᵀ with w = C(p+1:,p), along the path. Gill, Golub, Murray & Saunders (1974), method C1, on C = L D:
 ///     d' = d + σ w_j²,  c' = c + σ w_j w,  w := w − (w_j/d) c,  σ := σ d/d'.
 FactorStatus Factor::rank_one(std::int32_t p, double sigma, std::int64_t& work) {
-  const std::int64_t* start = symbolic_->pointers.data();
-  const std::int32_t* rows = symbolic_->rows.data();
-  for (std::int64_t t = start[p]; t < start[p + 1]; ++t) y_[rows[t]] = values_[t];
+  double* y = y_.data();
+  kernels::scatter(symbolic_->pointers[p + 1] - symbolic_->pointers[p], symbolic_->rows.data() + symbolic_->pointers[p], column(p), y);
   FactorStatus status = FactorStatus::ok;
-  for (std::int32_t j = symbolic_->parent[p]; j >= 0; j = symbolic_->parent[j]) {
-    const double w = y_[j];
-    y_[j] = 0;
-    if (w == 0 || status != FactorStatus::ok) continue;
-    const double d = pivot_[j], updated = d + sigma * w * w;
-    if (!(std::abs(updated) > 1e-12 * std::abs(d)) || (updated > 0) != (d > 0)) {
-      status = FactorStatus::small_pivot;
-      continue;
+  for (std::int32_t first = symbolic_->parent[p]; first >= 0;) {
+    const Stretch s = stretch(first, symbolic_->run_end[first]);
+    double* dense = gathered(s.first);
+    kernels::gather(s.count, s.rows, y, dense);
+    for (std::int32_t j = s.first; j < s.last; ++j) {
+      const std::int64_t k = j - s.first;
+      const double w = k ? dense[k - 1] : y[j];
+      if (w == 0 || status != FactorStatus::ok) continue;
+      const double d = pivot_[j], updated = d + sigma * w * w;
+      if (!(std::abs(updated) > 1e-12 * std::abs(d)) || (updated > 0) != (d > 0)) {
+        status = FactorStatus::small_pivot;
+        continue;
+      }
+      kernels::rank_one_column(s.count - k, column(j), dense + k, w / d, sigma * w);
+      pivot_[j] = updated;
+      inverse_[j] = 1 / updated;
+      sigma *= d / updated;
+      work += s.count - k;
     }
-    kernels::rank_one_column(start[j + 1] - start[j], rows + start[j], values_.data() + start[j], y_.data(), w / d, sigma * w);
-    pivot_[j] = updated;
-    inverse_[j] = 1 / updated;
-    sigma *= d / updated;
-    work += start[j + 1] - start[j];
+    kernels::scatter(s.count, s.rows, dense, y);
+    std::fill(y + s.first, y + s.last, 0.0);
+    first = symbolic_->parent[s.last - 1];
   }
   return status;
 }
@@ -160,27 +229,25 @@ FactorStatus Factor::remove(std::int32_t p, std::int64_t& work) {
 }
 
 FactorStatus Factor::insert(std::int32_t p, std::int64_t& work) {
-  const std::int64_t* start = symbolic_->pointers.data();
-  const std::int32_t* rows = symbolic_->rows.data();
-  const std::int32_t o = pattern_->row_ordinal[p], last = p;
+  const std::int32_t o = pattern_->row_ordinal[p];
+  double* y = y_.data();
   for (std::int32_t t = pattern_->row_pointers[o]; t < pattern_->row_pointers[o + 1]; ++t)
-    if (in_[pattern_->row_columns[t]]) y_[pattern_->row_columns[t]] = kkt_->row[t];
+    if (in_[pattern_->row_columns[t]]) y[pattern_->row_columns[t]] = kkt_->row[t];
   double d = kkt_->diagonal[p];
-  for (std::int32_t s = reach(p, p, last); s < last; ++s) {
-    const std::int32_t j = reach_[s];
-    mark_[j] = -1;
-    if (!in_[j]) continue;
-    const double c = y_[j], f = c * inverse_[j];
-    y_[j] = 0;
-    d -= c * f;
-    kernels::scatter_subtract(start[j + 1] - start[j], rows + start[j], values_.data() + start[j], f, y_.data());
-    values_[entry(j, p)] = c;
-    work += start[j + 1] - start[j];
-  }
-  y_[p] = 0;
-  for (std::int64_t t = start[p]; t < start[p + 1]; ++t) {
-    values_[t] = y_[rows[t]];
-    y_[rows[t]] = 0;
+  // row p of L: L(:p,:p) D l = K(:p,p); its entries in C are y_j
+  for_each_stretch(reach(p, p, p), p, [&](const Stretch& s) {
+    const std::int64_t place = std::lower_bound(s.rows, s.rows + s.count, p) - s.rows;
+    forward(s, y, work, [&](std::int32_t j, double f, double yj) {
+      d -= yj * f;
+      column(j)[place - (j - s.first)] = yj;
+    });
+    std::fill(y + s.first, y + s.last, 0.0);
+  });
+  y[p] = 0;
+  const std::int64_t begin = symbolic_->pointers[p], end = symbolic_->pointers[p + 1];
+  for (std::int64_t t = begin; t < end; ++t) {
+    values_[t] = y[symbolic_->rows[t]];
+    y[symbolic_->rows[t]] = 0;
   }
   in_[p] = 1;
   pivot_[p] = d;
@@ -190,52 +257,40 @@ FactorStatus Factor::insert(std::int32_t p, std::int64_t& work) {
 }
 
 void Factor::solve(const Island& island, double* x, std::int64_t& work) const {
-  const std::int64_t* start = symbolic_->pointers.data();
-  const std::int32_t* rows = symbolic_->rows.data();
-  for (std::int32_t j = island.first; j < island.last; ++j) {
-    if (!in_[j]) {
-      x[j] = 0;
-    } else if (x[j] != 0) {
-      kernels::scatter_subtract(start[j + 1] - start[j], rows + start[j], values_.data() + start[j], x[j] * inverse_[j], x);
-    }
+  for (std::int32_t j = island.first; j < island.last; ++j)
+    if (!in_[j]) x[j] = 0;
+  for (std::int32_t first = island.first; first < island.last; first = symbolic_->run_end[first]) {
+    const Stretch s = stretch(first, symbolic_->run_end[first]);
+    forward(s, x, work, [](std::int32_t, double, double) {});
   }
-  for (std::int32_t j = island.last - 1; j >= island.first; --j)
-    if (in_[j]) x[j] = inverse_[j] * (x[j] - kernels::gather_dot(start[j + 1] - start[j], rows + start[j], values_.data() + start[j], x));
-  work += 2 * (start[island.last] - start[island.first]);
+  backward_all(island, x, work);
+}
+
+void Factor::backward_all(const Island& island, double* x, std::int64_t& work) const {
+  for (std::int32_t last = island.last; last > island.first;) {
+    const std::int32_t first = symbolic_->run_start[last - 1];
+    backward(stretch(first, last), x, work);
+    last = first;
+  }
 }
 
 /// x := L⁻¹ K(:,p) for a row p that is out, x = 0 before; keep false: x = 0 again afterwards. returns K_pp − Σ x_j²/d_j.
 double Factor::forward_row(std::int32_t p, std::int32_t last, double* x, bool keep, std::int64_t& work) {
-  const std::int64_t* start = symbolic_->pointers.data();
-  const std::int32_t* rows = symbolic_->rows.data();
   const std::int32_t o = pattern_->row_ordinal[p];
   for (std::int32_t t = pattern_->row_pointers[o]; t < pattern_->row_pointers[o + 1]; ++t)
     if (in_[pattern_->row_columns[t]]) x[pattern_->row_columns[t]] = kkt_->row[t];
   double schur = kkt_->diagonal[p];
-  for (std::int32_t s = reach(p, last, last); s < last; ++s) {
-    const std::int32_t j = reach_[s];
-    mark_[j] = -1;
-    if (in_[j] && x[j] != 0) {
-      const double f = x[j] * inverse_[j];
-      schur -= x[j] * f;
-      kernels::scatter_subtract(start[j + 1] - start[j], rows + start[j], values_.data() + start[j], f, x);
-      work += start[j + 1] - start[j];
-    }
-    if (!keep) x[j] = 0;
-  }
+  for_each_stretch(reach(p, last, last), last, [&](const Stretch& s) {
+    forward(s, x, work, [&](std::int32_t, double f, double xj) { schur -= xj * f; });
+    if (!keep) std::fill(x + s.first, x + s.last, 0.0);
+  });
   return schur;
 }
 
 double Factor::solve_row(const Island& island, std::int32_t p, double* x, std::int64_t& work) {
-  const std::int64_t* start = symbolic_->pointers.data();
-  const std::int32_t* rows = symbolic_->rows.data();
   std::fill(x + island.first, x + island.last, 0.0);
   const double schur = forward_row(p, island.last, x, true, work);
-  for (std::int32_t j = island.last - 1; j >= island.first; --j) {
-    if (!in_[j]) continue;
-    x[j] = inverse_[j] * (x[j] - kernels::gather_dot(start[j + 1] - start[j], rows + start[j], values_.data() + start[j], x));
-    work += start[j + 1] - start[j];
-  }
+  backward_all(island, x, work);
   return schur;
 }
 

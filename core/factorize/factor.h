@@ -17,7 +17,7 @@ enum class FactorStatus {
 /// invariant, per fresh island: Σ_k C(:,k) C(:,k)ᵀ / d_k = K on the nodes that are in, up to rounding.
 class Factor {
  public:
-  explicit Factor(const Memory& m) : values_(m), pivot_(m), inverse_(m), in_(m), next_(m), head_(m), cursor_(m), y_(m), mark_(m), reach_(m) {}
+  explicit Factor(const Memory& m) : values_(m), pivot_(m), inverse_(m), in_(m), next_(m), head_(m), cursor_(m), y_(m), gathered_(m), mark_(m), reach_(m) {}
 
   /// Sizes everything for this pattern. allocates; all islands are stale afterwards.
   void prepare(const KktPattern& pattern, const Symbolic& symbolic, const KktValues& values);
@@ -55,6 +55,24 @@ class Factor {
 
  private:
   std::int32_t reach(std::int32_t p, std::int32_t below, std::int32_t last);
+  /// Columns first .. last − 1 of one run. Column j has the rows of column first from the (j − first)-th on, so that what all of them act
+  /// on is gathered once, behind which each column is one dense loop.
+  struct Stretch {
+    std::int32_t first, last;
+    std::int64_t count;         ///< rows of column first
+    const std::int32_t* rows;
+  };
+  Stretch stretch(std::int32_t first, std::int32_t last) const;
+  double* gathered(std::int32_t first) const { return gathered_.data() + first; }
+  const double* column(std::int32_t j) const { return values_.data() + symbolic_->pointers[j]; }
+  double* column(std::int32_t j) { return values_.data() + symbolic_->pointers[j]; }
+  /// y := y − C(:,j) y_j/d_j for the columns of a stretch, in order. visit(j, y_j/d_j, y_j) sees each column that is in and y_j ≠ 0.
+  template <class Visit>
+  void forward(const Stretch& s, double* y, std::int64_t& work, Visit visit) const;
+  void backward(const Stretch& s, double* x, std::int64_t& work) const;
+  void backward_all(const Island& island, double* x, std::int64_t& work) const;
+  template <class Visit>
+  void for_each_stretch(std::int32_t top, std::int32_t last, Visit visit);
   double forward_row(std::int32_t p, std::int32_t last, double* x, bool keep, std::int64_t& work);
   std::int64_t entry(std::int32_t column, std::int32_t row) const;
   FactorStatus rank_one(std::int32_t p, double sigma, std::int64_t& work);
@@ -69,6 +87,7 @@ class Factor {
   Array<std::int32_t> next_, head_;  // columns whose next row is p, while factoring
   Array<std::int64_t> cursor_;
   Array<double> y_;                  // 0 between calls
+  mutable Array<double> gathered_;   // dense copy of what a stretch acts on, from its first column on
   Array<std::int32_t> mark_, reach_; // mark_ is −1 between calls
   std::int32_t failed_ = -1;
 };

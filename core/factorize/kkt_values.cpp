@@ -37,6 +37,7 @@ void KktValues::load(const Problem& problem, const KktPattern& pattern) {
   const std::int32_t rows = pattern.rows();
   row.resize(pattern.row_columns.size());
   a.resize(rows);
+  root_a.resize(rows);
   lo.resize(rows);
   hi.resize(rows);
   for (std::int32_t o = 0; o < rows; ++o) {
@@ -53,6 +54,7 @@ void KktValues::load(const Problem& problem, const KktPattern& pattern) {
       }
     }
     a[o] = sum;
+    root_a[o] = sum > 0 ? std::sqrt(sum) : 1;
     lo[o] = problem.lo[i];
     hi[o] = problem.hi[i];
     double r = problem.r[i];

@@ -14,9 +14,10 @@ struct KktValues {
   Array<double> b;         ///< size
   Array<double> size;      ///< |b|, for rows plus |J||v₀| with v₀ⱼ = kⱼ/Mⱼⱼ: terms that the error of a row is relative to
   Array<double> a;         ///< ordinals: aᵢ = Σⱼ Jᵢⱼ²/Mⱼⱼ + Σᵢᵢ over dynamic velocities
+  Array<double> root_a;    ///< ordinals: √aᵢ, 1 where aᵢ = 0
   Array<double> lo, hi;    ///< ordinals
 
-  explicit KktValues(const Memory& m) : lower(m), diagonal(m), row(m), b(m), size(m), a(m), lo(m), hi(m) {}
+  explicit KktValues(const Memory& m) : lower(m), diagonal(m), row(m), b(m), size(m), a(m), root_a(m), lo(m), hi(m) {}
 
   /// cost: O(entries of M, J and Σ).
   void load(const Problem& problem, const KktPattern& pattern);

@@ -26,6 +26,8 @@ class Basis {
   /// Takes row o in by a toggle, or afresh where a toggle is not safe or the settings ask so.
   /// false: it turned out to depend on the active rows and rests.
   bool activate(const Island& island, std::int32_t o, Counts& counts);
+  /// Puts row o, which is not in the factor, exactly at its bound.
+  void rest(std::int32_t o, ActiveSet::State to);
   /// Takes row o out and puts it at rest in `to`.
   void deactivate(const Island& island, std::int32_t o, ActiveSet::State to, Counts& counts);
   /// Puts the rows listed at rest where each lies beyond its bound; by toggles or afresh, whichever touches less.
@@ -49,7 +51,6 @@ class Basis {
 
  private:
   void count_toggle(const Island& island, Counts& counts);
-  void rest(std::int32_t o, ActiveSet::State to);
   const Settings* settings_ = nullptr;
   Array<std::int32_t> toggled_;      // by island's first ordinal: toggles since the last factorization
   Array<std::int64_t> factor_work_;  // by island's first ordinal: entries that its last factorization touched

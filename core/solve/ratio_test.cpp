@@ -21,11 +21,11 @@ Step ratio_test(const Island& island, const Basis& basis, const Direction& direc
       step = {length, o, to};
   };
 
-  const double per_unit = std::sqrt(k.a[entering] > 0 ? k.a[entering] : 1.0);
+  const double per_unit = k.root_a[entering];
   for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
     if (set.state[o] != ActiveSet::active) continue;
     const double slope = -direction.dx[basis.position(o)];
-    if (std::abs(slope) * std::sqrt(k.a[o]) <= negligible * per_unit) continue;
+    if (std::abs(slope) * k.root_a[o] <= negligible * per_unit) continue;
     if (slope < 0 && k.lo[o] > -infinity) offer((k.lo[o] - basis.gamma(o)) / slope, o, ActiveSet::at_lower);
     if (slope > 0 && k.hi[o] < infinity) offer((k.hi[o] - basis.gamma(o)) / slope, o, ActiveSet::at_upper);
   }
@@ -33,7 +33,7 @@ Step ratio_test(const Island& island, const Basis& basis, const Direction& direc
     for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
       if (o == entering || k.lo[o] == k.hi[o] || set.deferred[o]) continue;
       const double w = set.w[o], slope = direction.dw[o], zero = set.tolerance[o];
-      if (std::abs(slope) <= negligible * per_unit * std::sqrt(k.a[o])) continue;
+      if (std::abs(slope) <= negligible * per_unit * k.root_a[o]) continue;
       if (set.state[o] == ActiveSet::at_lower && w >= -zero && slope < 0) offer(-w / slope, o, ActiveSet::active);
       if (set.state[o] == ActiveSet::at_upper && w <= zero && slope > 0) offer(-w / slope, o, ActiveSet::active);
     }
@@ -46,6 +46,7 @@ Step ratio_test(const Island& island, const Basis& basis, const Direction& direc
   const double gamma = basis.gamma(entering);
   if (direction.sign > 0 && k.hi[entering] < infinity) arrive(k.hi[entering] - gamma, ActiveSet::at_upper);
   if (direction.sign < 0 && k.lo[entering] > -infinity) arrive(gamma - k.lo[entering], ActiveSet::at_lower);
+  if (set.state[entering] == ActiveSet::out && direction.sign * gamma < 0) arrive(std::abs(gamma), ActiveSet::out);
   return step;
 }
 

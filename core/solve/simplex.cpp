@@ -48,7 +48,7 @@ std::int32_t Simplex::entering_row(const Island& island) const {
   for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
     const double w = violation(o);
     if (w == 0) continue;
-    const double a = basis_.values.a[o], size = a > 0 ? std::abs(w) / std::sqrt(a) : infinity;
+    const double size = basis_.values.a[o] > 0 ? std::abs(w) / basis_.values.root_a[o] : infinity;
     if (best < 0 || size > most || (size == most && row(o) < row(best))) {
       best = o;
       most = size;
@@ -111,15 +111,16 @@ void Simplex::find_direction(const Island& island, std::int32_t entering, Counts
   counts.work += pattern.row_pointers[island.last_row] - pattern.row_pointers[island.first_row];
 }
 
-void Simplex::advance(const Island& island, std::int32_t entering, double length) {
-  double* x = basis_.set.x.data();
-  double* w = basis_.set.w.data();
-  const std::int32_t p = basis_.position(entering);
-  if (length > 0) {
-    for (std::int32_t q = island.first; q < island.last; ++q)
-      if (basis_.factor.in(q) || q == p) x[q] += length * direction_.dx[q];
-    for (std::int32_t o = island.first_row; o < island.last_row; ++o) w[o] += length * direction_.dw[o];
-  }
+void Simplex::reverse(const Island& island) {
+  direction_.sign = -direction_.sign;
+  for (std::int32_t q = island.first; q < island.last; ++q) direction_.dx[q] = -direction_.dx[q];
+}
+
+void Simplex::advance(const Island& island, double length) {
+  double* __restrict x = basis_.set.x.data();
+  double* __restrict w = basis_.set.w.data();
+  for (std::int32_t q = island.first; q < island.last; ++q) x[q] += length * direction_.dx[q];
+  for (std::int32_t o = island.first_row; o < island.last_row; ++o) w[o] += length * direction_.dw[o];
 }
 
 /// Rows whose impulse has left its bounds go to rest there. false: there is none.
@@ -143,15 +144,20 @@ mlcp_outcome Simplex::start(const Island& island, Limits& limits, Counts& counts
   return MLCP_SOLVED;
 }
 
-/// The inner loop of the pseudocode: drives one violated row to w = 0 or to its far bound.
+/// The inner loop of the pseudocode: drives one violated row to w = 0 or to its far bound. By the printed rule rows come in on the way, so
+/// that it may hold (w = 0) and depend on them: then its impulse goes back to rest and they take it over, or one of them leaves.
 mlcp_outcome Simplex::treat(const Island& island, std::int32_t entering, Limits& limits, Counts& counts, Array<mlcp_pivot>* trace) {
   const std::int32_t n = problem_->n();
   const auto row = [&](std::int32_t o) { return o < 0 ? -1 : basis_.pattern->node[basis_.position(o)] - n; };
-  direction_.sign = basis_.set.w[entering] < 0 ? 1 : -1;
+  const double sign = basis_.set.w[entering] < 0 ? 1 : -1;
   while (true) {
+    const bool holds = std::abs(basis_.set.w[entering]) <= basis_.set.tolerance[entering];
     if (const mlcp_outcome stop = limits.check(counts, std::abs(basis_.set.w[entering])); stop != MLCP_SOLVED) return stop;
+    direction_.sign = sign;
     find_direction(island, entering, counts);
-    const Step step = ratio_test(island, basis_, direction_, entering, settings_->pivot_rule);
+    if (holds && direction_.dependent) reverse(island);
+    const Step step = holds && !direction_.dependent ? Step{0, entering, ActiveSet::active}
+                                                     : ratio_test(island, basis_, direction_, entering, settings_->pivot_rule);
     ++counts.pivots;
     if (trace)
       trace->push_back({island_index_, row(entering), row(step.blocking),
@@ -164,12 +170,12 @@ mlcp_outcome Simplex::treat(const Island& island, std::int32_t entering, Limits&
       basis_.set.deferred[entering] = 1;
       return MLCP_SOLVED;
     }
-    advance(island, entering, step.length);
+    if (step.length > 0) advance(island, step.length);
     if (step.blocking == entering) {
       if (step.to == ActiveSet::active)
         basis_.activate(island, entering, counts);
       else
-        basis_.set.state[entering] = step.to;
+        basis_.rest(entering, step.to);  // exactly at the bound
       basis_.set.w[entering] = step.to == ActiveSet::active ? 0 : basis_.set.w[entering];
       return MLCP_SOLVED;
     }
@@ -182,22 +188,26 @@ mlcp_outcome Simplex::treat(const Island& island, std::int32_t entering, Limits&
   }
 }
 
-/// y = change of the impulses along the step on which nothing blocks; refined, since Jᵀy = 0 is asked to 1e-12.
+/// y = change of the impulses along the step on which nothing blocks; refined, since Jᵀy = 0 is asked to 1e-12. Entries that ought to be 0
+/// are rounding, and on a soft row Σy = 0 forgives none: more and more of the smallest are left out, until the rest is a proof.
 bool Simplex::certify(const Island& island, std::int32_t entering) {
   const KktPattern& pattern = *basis_.pattern;
-  const double per_unit = std::sqrt(basis_.values.a[entering]);
-  certificate_row.clear();
-  certificate_y.clear();
-  for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
-    if (o != entering && basis_.set.state[o] != ActiveSet::active) continue;
-    const double y = -direction_.dx[basis_.position(o)];
-    // the ratio test has shown that a sign against the bounds is rounding
-    const bool against = y > 0 ? basis_.values.hi[o] < infinity : basis_.values.lo[o] > -infinity;
-    if (o != entering && (against || std::abs(y) * std::sqrt(basis_.values.a[o]) <= 1e-15 * per_unit)) continue;
-    certificate_row.push_back(pattern.node[basis_.position(o)] - problem_->n());
-    certificate_y.push_back(y);
+  const double per_unit = basis_.values.root_a[entering];
+  for (const double negligible : {1e-15, 1e-14, 1e-13, 1e-12, 1e-11}) {
+    certificate_row.clear();
+    certificate_y.clear();
+    for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
+      if (o != entering && basis_.set.state[o] != ActiveSet::active) continue;
+      const double y = -direction_.dx[basis_.position(o)];
+      // the ratio test has shown that a sign against the bounds is rounding
+      const bool against = y > 0 ? basis_.values.hi[o] < infinity : basis_.values.lo[o] > -infinity;
+      if (o != entering && (against || std::abs(y) * basis_.values.root_a[o] <= negligible * per_unit)) continue;
+      certificate_row.push_back(pattern.node[basis_.position(o)] - problem_->n());
+      certificate_y.push_back(y);
+    }
+    if (check_.holds(*problem_, enabled_, certificate_row.span(), certificate_y.span())) return true;
   }
-  return check_.holds(*problem_, enabled_, certificate_row.span(), certificate_y.span());
+  return false;
 }
 
 mlcp_outcome Simplex::solve(const Island& island, std::int32_t index, Limits& limits, Counts& counts, Array<mlcp_pivot>* trace) {

@@ -38,7 +38,8 @@ class Simplex {
   double pivot_along(std::int32_t entering, const double* z) const;
   void refine_direction(const Island& island, std::int32_t entering, Counts& counts);
   void find_direction(const Island& island, std::int32_t entering, Counts& counts);
-  void advance(const Island& island, std::int32_t entering, double length);
+  void reverse(const Island& island);
+  void advance(const Island& island, double length);
   bool drop_beyond_bounds(const Island& island, Counts& counts);
   bool certify(const Island& island, std::int32_t entering);
   void tighten(const Island& island);

@@ -1,0 +1,171 @@
+#include "assemble/symmetric.h"
+
+#include <limits>
+
+#include "assemble/validate.h"
+
+namespace mlcp {
+
+namespace {
+
+constexpr std::int32_t none = -1;
+
+/// Indices in range, none twice in a column, only in the triangle that was announced. Returns the number of entries.
+std::int32_t check_input(const SymmetricInput& a, Marker& marker) {
+  if (a.triangle < MLCP_FULL || a.triangle > MLCP_UPPER)
+    throw Error(MLCP_ERROR_ARGUMENT, "triangle = %d is unknown", a.triangle);
+  const std::int32_t entries = check_pointers("column_pointers", a.column_pointers, a.size);
+  check_array("row_indices", a.row_indices, entries);
+  check_array("values", a.values, entries);
+  check_entries("the matrix", 2 * std::int64_t(entries) + a.size);
+  for (std::int32_t j = 0; j < a.size; ++j) {
+    marker.start(a.size);
+    for (std::int32_t e = a.column_pointers[j]; e < a.column_pointers[j + 1]; ++e) {
+      const std::int32_t i = a.row_indices[e];
+      if (i < 0 || i >= a.size) throw Error(MLCP_ERROR_RANGE, "row_indices[%d] = %d is not in 0 .. %d", e, i, a.size - 1);
+      if ((a.triangle == MLCP_LOWER && i < j) || (a.triangle == MLCP_UPPER && i > j))
+        throw Error(MLCP_ERROR_ARGUMENT, "row_indices[%d] = %d in column %d is not in the %s triangle", e, i, j,
+                    a.triangle == MLCP_LOWER ? "lower" : "upper");
+      if (!marker.insert(i)) throw Error(MLCP_ERROR_ARGUMENT, "row_indices[%d] = %d is twice in column %d", e, i, j);
+    }
+  }
+  check_finite("values", a.values, entries);
+  return entries;
+}
+
+/// slot[2e + 1]: the caller's entry (j, i) for his entry e at (i, j); none where there is none.
+/// entries by row, against the positions of the column with the same number.
+void find_mirrors(const SymmetricInput& a, std::int32_t entries, Marker& marker, Array<std::int32_t>& scratch,
+                  std::int32_t* slot) {
+  const std::size_t size = a.size;
+  scratch.assign(2 * size + 1 + 2 * std::size_t(entries), 0);
+  std::int32_t *row_start = scratch.data(), *position = row_start + size + 1, *by_row = position + size, *column = by_row + entries;
+  for (std::int32_t e = 0; e < entries; ++e) ++row_start[a.row_indices[e] + 1];
+  for (std::size_t i = 0; i < size; ++i) row_start[i + 1] += row_start[i];
+  for (std::size_t i = 0; i < size; ++i) position[i] = row_start[i];
+  for (std::int32_t j = 0; j < a.size; ++j)
+    for (std::int32_t e = a.column_pointers[j]; e < a.column_pointers[j + 1]; ++e) {
+      const std::int32_t p = position[a.row_indices[e]]++;
+      by_row[p] = e;
+      column[p] = j;
+    }
+  for (std::int32_t j = 0; j < a.size; ++j) {
+    marker.start(size);
+    for (std::int32_t e = a.column_pointers[j]; e < a.column_pointers[j + 1]; ++e) {
+      marker.insert(a.row_indices[e]);
+      position[a.row_indices[e]] = e;
+    }
+    for (std::int32_t p = row_start[j]; p < row_start[j + 1]; ++p)
+      slot[2 * by_row[p] + 1] = marker.contains(column[p]) ? position[column[p]] : none;
+  }
+}
+
+/// before: slot[2e + 1] is the caller's mirror of e, or none.     after: pattern and slots of both triangles.
+void place(const SymmetricInput& a, EditWorkspace& work) {
+  auto& [pointers, indices, values] = work.expanded;
+  std::int32_t* slot = work.slot.data();
+  pointers.assign(std::size_t(a.size) + 1, 0);
+  work.index.resize(a.size);
+  for (std::int32_t j = 0; j < a.size; ++j)
+    for (std::int32_t e = a.column_pointers[j]; e < a.column_pointers[j + 1]; ++e) {
+      ++pointers[j + 1];
+      if (slot[2 * e + 1] == none) ++pointers[a.row_indices[e] + 1];
+    }
+  for (std::int32_t j = 0; j < a.size; ++j) pointers[j + 1] += pointers[j];
+  indices.resize(pointers[a.size]);
+  values.resize(pointers[a.size]);
+  for (std::int32_t j = 0; j < a.size; ++j) {
+    std::int32_t next = pointers[j];
+    for (std::int32_t e = a.column_pointers[j]; e < a.column_pointers[j + 1]; ++e) {
+      indices[next] = a.row_indices[e];
+      slot[2 * e] = next++;
+    }
+    work.index[j] = next;
+  }
+  for (std::int32_t j = 0; j < a.size; ++j)
+    for (std::int32_t e = a.column_pointers[j]; e < a.column_pointers[j + 1]; ++e) {
+      if (slot[2 * e + 1] == none) {
+        const std::int32_t p = work.index[a.row_indices[e]]++;
+        indices[p] = j;
+        slot[2 * e + 1] = p;
+      } else {
+        slot[2 * e + 1] = slot[2 * slot[2 * e + 1]];
+      }
+    }
+}
+
+}  // namespace
+
+void expand(const SymmetricInput& input, EditWorkspace& work) {
+  const std::int32_t entries = check_input(input, work.marker);
+  work.slot.resize(2 * std::size_t(entries));
+  if (input.triangle == MLCP_FULL) {
+    find_mirrors(input, entries, work.marker, work.index, work.slot.data());
+  } else {
+    for (std::int32_t j = 0; j < input.size; ++j)
+      for (std::int32_t e = input.column_pointers[j]; e < input.column_pointers[j + 1]; ++e)
+        work.slot[2 * e + 1] = input.row_indices[e] == j ? e : none;
+  }
+  place(input, work);
+  work.value.resize(input.size);
+  const SymmetricPattern pattern{input.size, work.expanded.indices.data(), 0, work.slot.data(), entries, input.triangle};
+  expand_values("values", pattern, input.values, work.value.data(), work.expanded.values.span());
+}
+
+void expand_values(const char* name, const SymmetricPattern& a, const double* values, double* diagonal,
+                   std::span<double> out) {
+  constexpr double missing = std::numeric_limits<double>::quiet_NaN();  // the caller's own values are finite
+  std::fill(out.begin(), out.end(), missing);
+  std::fill(diagonal, diagonal + a.size, 0.0);
+  for (std::int64_t e = 0; e < a.count; ++e) {
+    const std::int32_t p = a.slot[2 * e], q = a.slot[2 * e + 1];
+    out[p] = values[e];
+    if (a.triangle != MLCP_FULL) out[q] = values[e];
+    if (p == q) diagonal[a.indices[p] - a.base] = values[e];
+  }
+  if (a.triangle != MLCP_FULL) return;
+  for (std::int64_t e = 0; e < a.count; ++e) {
+    const std::int32_t p = a.slot[2 * e], q = a.slot[2 * e + 1], i = a.indices[p] - a.base, j = a.indices[q] - a.base;
+    const bool alone = std::isnan(out[q]);
+    if (alone) out[q] = 0;
+    if ((alone && out[p] != 0) || !nearly_symmetric(out[p], out[q], diagonal[i], diagonal[j]))
+      throw Error(MLCP_ERROR_ARGUMENT, "%s[%lld] is not symmetric: entry (%d, %d) = %.17g, entry (%d, %d) = %.17g", name,
+                  static_cast<long long>(e), i, j, out[p], j, i, out[q]);
+    out[p] = out[q] = middle(out[p], out[q]);
+  }
+}
+
+void sort_with_diagonal(std::int32_t size, EditWorkspace& work) {
+  const auto& [from, rows, numbers] = work.expanded;
+  auto& [pointers, indices, values] = work.sorted;
+  Array<std::int32_t>& position = work.index;
+  pointers.assign(std::size_t(size) + 1, 0);
+  position.resize(size);
+  std::int32_t* next = position.data();
+  work.slot.assign(size, 0);
+  std::int32_t* has_diagonal = work.slot.data();
+  for (std::int32_t j = 0; j < size; ++j)
+    for (std::int32_t p = from[j]; p < from[j + 1]; ++p) {
+      ++pointers[rows[p] + 1];
+      has_diagonal[j] |= rows[p] == j;
+    }
+  for (std::int32_t j = 0; j < size; ++j) {
+    pointers[j + 1] += pointers[j] + !has_diagonal[j];
+    next[j] = pointers[j];
+  }
+  indices.resize(pointers[size]);
+  values.resize(pointers[size]);
+  const auto put = [&](std::int32_t i, std::int32_t j, double value) {
+    indices[next[i]] = j;
+    values[next[i]++] = value;
+  };
+  for (std::int32_t j = 0; j < size; ++j) {
+    for (std::int32_t p = from[j]; p < from[j + 1]; ++p) put(rows[p], j, numbers[p]);
+    if (!has_diagonal[j]) put(j, j, 0.0);
+  }
+  for (std::int32_t j = 0; j < size; ++j)
+    for (std::int32_t p = pointers[j]; p < pointers[j + 1]; ++p)
+      if (indices[p] == j) position[j] = p;
+}
+
+}  // namespace mlcp

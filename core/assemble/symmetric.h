@@ -1,0 +1,39 @@
+#pragma once
+#include "assemble/problem.h"
+
+namespace mlcp {
+
+/// A symmetric matrix as callers hand it in: size × size, compressed columns in any order, both triangles or one.
+struct SymmetricInput {
+  std::int32_t size;
+  const std::int32_t* column_pointers;
+  const std::int32_t* row_indices;
+  const double* values;
+  mlcp_triangle triangle;
+};
+
+/// Both triangles, in work.expanded: the caller's entries in the caller's order within a column, then the mirrors that are
+/// missing. work.slot as Problem::mass_slot.
+/// cost:  O(entries).      fails: Error, bad_alloc; nothing but the workspace has changed.
+void expand(const SymmetricInput& input, EditWorkspace& work);
+
+/// Where the values of an expanded matrix go. indices: of its rows, all plus `base`.
+struct SymmetricPattern {
+  std::int32_t size;
+  const std::int32_t* indices;
+  std::int32_t base;
+  const std::int32_t* slot;
+  std::int64_t count;  ///< of the caller's values
+  mlcp_triangle triangle;
+};
+
+/// out: the expanded values, the two triangles made equal.      diagonal: size doubles to work in.
+/// fails: Error on the argument `name`, when they differ by more than rounding or one of them is missing and not 0.
+void expand_values(const char* name, const SymmetricPattern& pattern, const double* values, double* diagonal,
+                   std::span<double> out);
+
+/// The expanded matrix with rows sorted and every diagonal entry there, in work.sorted; diagonal positions in work.index.
+/// A symmetric matrix is its own transpose, and transposing sorts.
+void sort_with_diagonal(std::int32_t size, EditWorkspace& work);
+
+}  // namespace mlcp

@@ -1,0 +1,10 @@
+#pragma once
+#include "report/snapshot.h"
+
+namespace mlcp {
+
+void write_payload(const SnapshotSource& source, Array<std::uint8_t>& out);
+/// fails: Error of any kind, bad_alloc; `out` is then half filled.
+void read_payload(const Memory& memory, std::span<const std::uint8_t> payload, Snapshot& out);
+
+}  // namespace mlcp

@@ -1,0 +1,128 @@
+#include "assemble/bodies.h"
+#include "assemble/compliance.h"
+#include "assemble/layout.h"
+#include "assemble/rows.h"
+#include "assemble/validate.h"
+#include "report/bytes.h"
+#include "report/snapshot_payload.h"
+
+namespace mlcp {
+
+namespace {
+
+/// Numbers on their way from the bytes to the calls that check them.
+struct Scratch {
+  Array<std::int32_t> pointers, indices;
+  Array<double> values;
+  explicit Scratch(const Memory& memory) : pointers(memory), indices(memory), values(memory) {}
+};
+
+/// One of the two values that a byte may have.
+bool read_flag(ByteReader& from) {
+  const std::uint8_t flag = from.u8();
+  if (flag > 1) throw Error(MLCP_ERROR_FORMAT, "a flag is %d", flag);
+  return flag == 1;
+}
+
+void read_settings(ByteReader& from, Settings& settings) {
+  settings.method = from.i32();
+  settings.pivot_rule = from.i32();
+  settings.refactorize = from.i32();
+  settings.trace = from.i32();
+  settings.tolerance = from.f64();
+  settings.max_iterations = from.i64();
+  settings.max_work = from.i64();
+  settings.max_seconds = from.f64();
+  check_settings(settings);
+}
+
+/// Pointers, indices and values of a matrix with `outer` compressed columns (rows).
+void read_matrix(ByteReader& from, std::size_t outer, Scratch& to) {
+  const std::int32_t entries = from.count(sizeof(std::int32_t) + sizeof(double));
+  from.i32s(outer + 1, to.pointers);
+  if (to.pointers.back() != entries) throw Error(MLCP_ERROR_FORMAT, "a matrix has %d entries, not %d", to.pointers.back(), entries);
+  from.i32s(entries, to.indices);
+  from.f64s(entries, to.values);
+}
+
+std::int32_t read_mass(ByteReader& from, std::int32_t dimension, std::uint8_t kind, Scratch& scratch, Problem& problem) {
+  if (kind > 1 + MLCP_UPPER) throw Error(MLCP_ERROR_FORMAT, "a mass is stored in way %d", kind);
+  std::int32_t id = 0;
+  if (kind > 0) {
+    read_matrix(from, dimension, scratch);
+    return body_add_sparse(problem, dimension, scratch.pointers.data(), scratch.indices.data(), scratch.values.data(), kind - 1);
+  }
+  from.f64s(std::size_t(dimension) * dimension, scratch.values);
+  bodies_add(problem, 1, dimension, scratch.values.data(), 0, &id);
+  return id;
+}
+
+void read_bodies(const Memory& memory, ByteReader& from, Scratch& scratch, Problem& problem) {
+  const std::int32_t count = from.count(sizeof(std::int32_t));
+  Array<std::uint8_t> used(memory);
+  used.assign(count, 0);
+  for (std::int32_t i = 0; i < count; ++i) {
+    const std::int32_t dimension = from.i32();
+    if (dimension == 0) continue;
+    check_count("dimension", dimension);
+    used[i] = 1;
+    const std::uint8_t kind = from.u8();
+    const bool prescribed = read_flag(from);
+    const std::int32_t id = read_mass(from, dimension, kind, scratch, problem);
+    if (!prescribed) continue;
+    from.f64s(dimension, scratch.values);
+    body_set_prescribed(problem, id, scratch.values.data(), dimension);
+  }
+  if (count > 0 && !used.back()) throw Error(MLCP_ERROR_FORMAT, "the last body is free");
+  spread_ids(problem, used.span());
+  from.f64s(problem.n(), scratch.values);
+  set_momentum(problem, 0, problem.n(), scratch.values.data());
+}
+
+void read_rows(const Memory& memory, ByteReader& from, Scratch& scratch, Problem& problem) {
+  const std::int32_t m = from.count(4 * sizeof(double));
+  Array<double> r(memory), lo(memory), hi(memory);
+  Array<std::uint64_t> key(memory);
+  for (Array<double>* a : {&r, &lo, &hi}) from.f64s(m, *a);
+  from.u64s(m, key);
+  read_matrix(from, m, scratch);
+  rows_add_csr(problem, m, scratch.pointers.data(), scratch.indices.data(), scratch.values.data(),
+               {r.data(), lo.data(), hi.data(), nullptr, key.data()});
+  read_matrix(from, m, scratch);
+  set_compliance_matrix(problem, {m, scratch.pointers.data(), scratch.indices.data(), scratch.values.data(), MLCP_FULL});
+}
+
+bool read_mask(ByteReader& from, std::int32_t rows, Mask& mask) {
+  if (!read_flag(from)) return false;
+  const bool keyed = read_flag(from);
+  const auto states = from.bytes(rows);
+  mask_resize(mask, rows, MLCP_ROW_DISABLED);
+  mask_set(mask, 0, rows, states.data());
+  if (keyed) from.u64s(rows, mask.key);
+  return true;
+}
+
+/// Each index once; whether it is an order for the pattern, the next analysis tells.
+void read_ordering(ByteReader& from, Problem& problem, Array<std::int32_t>& ordering) {
+  const std::int32_t size = problem.n() + problem.m();
+  from.i32s(from.count(sizeof(std::int32_t)), ordering);
+  problem.work.marker.start(size);
+  for (std::int32_t i : ordering)
+    if (i < 0 || i >= size || !problem.work.marker.insert(i)) throw Error(MLCP_ERROR_FORMAT, "the ordering is none: %d", i);
+}
+
+}  // namespace
+
+void read_payload(const Memory& memory, std::span<const std::uint8_t> payload, Snapshot& out) {
+  ByteReader from(payload);
+  Scratch scratch(memory);
+  read_settings(from, out.settings);
+  read_bodies(memory, from, scratch, out.problem);
+  read_rows(memory, from, scratch, out.problem);
+  out.has_enabled = read_mask(from, out.problem.m(), out.enabled);
+  out.has_start = read_mask(from, out.problem.m(), out.start);
+  read_ordering(from, out.problem, out.ordering);
+  if (from.left() > 0) throw Error(MLCP_ERROR_FORMAT, "%zu bytes are left", from.left());
+}
+
+}  // namespace mlcp

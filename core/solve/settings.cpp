@@ -1,0 +1,36 @@
+#include "solve/settings.h"
+
+#include <cmath>
+
+#include "memory/error.h"
+
+namespace mlcp {
+
+Settings default_settings() {
+  Settings settings{};
+  settings.struct_size = sizeof settings;
+  settings.method = MLCP_METHOD_AUTO;
+  settings.pivot_rule = MLCP_PIVOT_DUAL;
+  settings.refactorize = MLCP_REFACTORIZE_WHEN_NEEDED;
+  settings.tolerance = 1e-9;
+  return settings;
+}
+
+void check_settings(const Settings& settings) {
+  const auto refuse = [](const char* field, double value, const char* why) {
+    throw Error(MLCP_ERROR_ARGUMENT, "settings.%s = %g %s", field, value, why);
+  };
+  if (settings.method < MLCP_METHOD_AUTO || settings.method > MLCP_METHOD_SIMPLEX)
+    refuse("method", settings.method, "is unknown");
+  if (settings.pivot_rule < MLCP_PIVOT_DUAL || settings.pivot_rule > MLCP_PIVOT_PRINTED)
+    refuse("pivot_rule", settings.pivot_rule, "is unknown");
+  if (settings.refactorize < MLCP_REFACTORIZE_WHEN_NEEDED || settings.refactorize > MLCP_REFACTORIZE_ALWAYS)
+    refuse("refactorize", settings.refactorize, "is unknown");
+  if (!(settings.tolerance > 0) || !std::isfinite(settings.tolerance))
+    refuse("tolerance", settings.tolerance, "is not a positive number");
+  if (settings.max_iterations < 0) refuse("max_iterations", static_cast<double>(settings.max_iterations), "is negative");
+  if (settings.max_work < 0) refuse("max_work", static_cast<double>(settings.max_work), "is negative");
+  if (!(settings.max_seconds >= 0)) refuse("max_seconds", settings.max_seconds, "is negative");
+}
+
+}  // namespace mlcp
