@@ -39,7 +39,8 @@ void find_mirrors(const SymmetricInput& a, std::int32_t entries, Marker& marker,
                   std::int32_t* slot) {
   const std::size_t size = a.size;
   scratch.assign(2 * size + 1 + 2 * std::size_t(entries), 0);
-  std::int32_t *row_start = scratch.data(), *position = row_start + size + 1, *by_row = position + size, *column = by_row + entries;
+  std::int32_t *row_start = scratch.data(), *position = row_start + size + 1;
+  std::int32_t *by_row = position + size, *column = by_row + entries;
   for (std::int32_t e = 0; e < entries; ++e) ++row_start[a.row_indices[e] + 1];
   for (std::size_t i = 0; i < size; ++i) row_start[i + 1] += row_start[i];
   for (std::size_t i = 0; i < size; ++i) position[i] = row_start[i];

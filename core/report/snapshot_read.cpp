@@ -40,7 +40,8 @@ void read_settings(ByteReader& from, Settings& settings) {
 void read_matrix(ByteReader& from, std::size_t outer, Scratch& to) {
   const std::int32_t entries = from.count(sizeof(std::int32_t) + sizeof(double));
   from.i32s(outer + 1, to.pointers);
-  if (to.pointers.back() != entries) throw Error(MLCP_ERROR_FORMAT, "a matrix has %d entries, not %d", to.pointers.back(), entries);
+  if (to.pointers.back() != entries)
+    throw Error(MLCP_ERROR_FORMAT, "a matrix has %d entries, not %d", to.pointers.back(), entries);
   from.i32s(entries, to.indices);
   from.f64s(entries, to.values);
 }
