@@ -1,0 +1,25 @@
+#include "convert_command.h"
+
+#include <iostream>
+
+#include "problem_folder.h"
+
+namespace cli {
+
+void run_convert(const std::string& from, const std::string& to) {
+  const ProblemFile file = read_problem(from);
+  const std::size_t left_out = static_cast<std::size_t>(file.file_rows) - file.file_row.size();
+  if (left_out > 0) std::cerr << "mlcp: " << left_out << " rows of friction were left out\n";
+  if (to.ends_with(".mlcp")) {
+    const mlcp_status status =
+        mlcp_snapshot_save(to.c_str(), file.problem.get(), file.solver.get(), file.enabled.get(), file.start.get());
+    if (status != MLCP_OK) throw std::runtime_error(to + ": " + mlcp_status_text(status));
+  } else {
+    if (file.enabled && mlcp_mask_count(file.enabled.get(), MLCP_ROW_DISABLED) > 0) {
+      throw std::runtime_error("a folder cannot hold disabled rows");
+    }
+    write_folder(to, file.problem);
+  }
+}
+
+}  // namespace cli

@@ -1,0 +1,75 @@
+// CLI11: subcommands, checks and help
+#include <CLI/CLI.hpp>
+// nlohmann/json: the answer to bad input where JSON was asked for
+#include <nlohmann/json.hpp>
+
+#include <iostream>
+
+#include "convert_command.h"
+#include "info_command.h"
+#include "mlcp.h"
+#include "solve_command.h"
+
+namespace {
+
+using cli::Exit;
+
+void add_output(CLI::App& command, std::string& output) {
+  command.add_option("--output", output, "text or json")->check(CLI::IsMember({"text", "json"}))->capture_default_str();
+}
+
+void add_solve(CLI::App& app, cli::SolveOptions& options) {
+  CLI::App& solve = *app.add_subcommand("solve", "Solve a problem; exit 0: solved, 1: a limit, 2: no solution, 3: bad input");
+  solve.add_option("PROBLEM", options.problem, "Folder of Matrix Market files, or snapshot")->required();
+  solve.add_option("--method", options.method, "auto or simplex [auto]");
+  solve.add_option("--tolerance", options.tolerance, "On the largest relative error [1e-9]");
+  solve.add_option("--max-seconds", options.max_seconds, "Give up after that time [never]");
+  solve.add_option("--friction", options.friction, "none: normal and plain rows only")->capture_default_str();
+  solve.add_option("--pivot-rule", options.pivot_rule, "dual or printed [dual]");
+  solve.add_option("--refactorize", options.refactorize, "when-needed or always [when-needed]");
+  solve.add_flag("--trace", options.trace, "Print every pivot");
+  add_output(solve, options.output);
+  solve.footer("A snapshot brings its own settings; what is given here goes first.");
+}
+
+/// Message on standard error; where JSON was asked for, also an object on standard output.
+int bad_input(const std::string& message, bool json) {
+  std::cerr << "mlcp: " << message << "\n";
+  if (json) {
+    const nlohmann::ordered_json answer = {{"status", mlcp_outcome_text(MLCP_BAD_INPUT)}, {"message", message}};
+    std::cout << answer.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << "\n";
+  }
+  return Exit::BadInput;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Exact solver for the mixed linear complementarity problem of rigid-body contact", "mlcp");
+  app.set_version_flag("--version", mlcp_version());
+  app.require_subcommand(1);
+
+  cli::SolveOptions solve;
+  add_solve(app, solve);
+
+  std::string info_path, info_output = "text";
+  CLI::App& info = *app.add_subcommand("info", "Sizes, islands, rank, scaling, what is unusual about a problem");
+  info.add_option("PROBLEM", info_path, "Folder of Matrix Market files, or snapshot")->required();
+  add_output(info, info_output);
+
+  std::string from, to;
+  CLI::App& convert = *app.add_subcommand("convert", "Between folder and snapshot");
+  convert.add_option("IN", from, "Folder or snapshot")->required();
+  convert.add_option("OUT", to, "Snapshot if it ends in .mlcp, else a new folder")->required();
+
+  try {
+    app.parse(argc, argv);
+    if (info.parsed()) cli::run_info(info_path, info_output);
+    if (convert.parsed()) cli::run_convert(from, to);
+    return app.got_subcommand("solve") ? cli::run_solve(solve) : Exit::Solved;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? Exit::Solved : Exit::BadInput;
+  } catch (const std::exception& error) {
+    return bad_input(error.what(), (app.got_subcommand("solve") ? solve.output : info_output) == "json");
+  }
+}

@@ -1,0 +1,54 @@
+#include "row_list.h"
+
+#include <cmath>
+
+namespace scenes {
+
+std::uint64_t row_key(std::int32_t body_a, std::int32_t body_b, std::int32_t feature) {
+  const auto part = [](std::int32_t value) { return static_cast<std::uint64_t>(value + 2); };  // MLCP_WORLD becomes 1
+  return part(body_a) << 40 | part(body_b) << 16 | (part(feature) - 1);
+}
+
+void RowList::add(RowKind kind, std::int32_t body_a, std::int32_t body_b, std::span<const double> jacobian_a,
+                  std::span<const double> jacobian_b, double phi, std::int32_t feature) {
+  const auto dimension = static_cast<std::size_t>(dimension_);
+  const std::size_t start = jacobian_.size();
+  jacobian_.resize(start + 2 * dimension);
+  for (std::size_t i = 0; i < jacobian_a.size(); ++i) jacobian_[start + i] = jacobian_a[i];
+  for (std::size_t i = 0; i < jacobian_b.size(); ++i) jacobian_[start + dimension + i] = jacobian_b[i];
+  kind_.push_back(kind);
+  body_a_.push_back(body_a);
+  body_b_.push_back(body_b);
+  phi_.push_back(phi);
+  key_.push_back(row_key(body_a, body_b, feature));
+}
+
+void RowList::add(RowKind kind, std::int32_t body_a, std::int32_t body_b, std::initializer_list<double> jacobian_a,
+                  std::initializer_list<double> jacobian_b, double phi, std::int32_t feature) {
+  const auto span = [](std::initializer_list<double> list) { return std::span(list.begin(), list.size()); };
+  add(kind, body_a, body_b, span(jacobian_a), span(jacobian_b), phi, feature);
+}
+
+void RowList::add_to(const Problem& problem, double h, double stabilisation) const {
+  if (phi_.empty()) return;
+  std::vector<double> r(phi_.size()), lo(phi_.size());
+  for (std::size_t i = 0; i < phi_.size(); ++i) {
+    const bool contact = kind_[i] == RowKind::Contact;
+    lo[i] = contact ? 0.0 : -INFINITY;
+    check(mlcp_timestep_rows(h, stabilisation, contact, 1, &phi_[i], nullptr, &r[i]));
+  }
+  mlcp_rows rows;
+  mlcp_rows_init(&rows, sizeof rows);
+  rows.count = count();
+  rows.body_a = body_a_.data();
+  rows.body_b = body_b_.data();
+  rows.jacobian_a = jacobian_.data();
+  rows.jacobian_b = jacobian_.data() + dimension_;
+  rows.jacobian_a_stride = rows.jacobian_b_stride = 2 * dimension_ * static_cast<std::ptrdiff_t>(sizeof(double));
+  rows.r = r.data();
+  rows.lo = lo.data();
+  rows.key = key_.data();
+  check(mlcp_problem_rows_add(problem.get(), &rows, nullptr), problem);
+}
+
+}  // namespace scenes

@@ -1,0 +1,9 @@
+#pragma once
+/// Scenes shared by tests, benchmarks and examples, on mlcp.h alone. Each is a class that steps, and a function that builds the
+/// problem of one representative step.
+#include "chain.h"
+#include "pile.h"
+#include "record.h"
+#include "rope.h"
+#include "tower.h"
+#include "wall.h"
