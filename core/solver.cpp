@@ -1,6 +1,7 @@
 #include "solver.h"
 
 #include <algorithm>
+#include <memory>
 #include <new>
 
 #include "analyze/analysis.h"
@@ -254,6 +255,18 @@ void Solver::solve(const Problem& problem, const Mask* enabled, const Mask* star
   s.result.valid = true;
 }
 
-void Solver::trim() {}
+/// The order is kept, so that the next solve gives the same bits as without.
+void Solver::trim() {
+  State& s = *state_;
+  s.imposed.assign(ordering());
+  std::destroy_at(&s.simplex);
+  std::destroy_at(&s.basis);
+  std::destroy_at(&s.analysis);
+  std::destroy_at(&s.measure);
+  std::construct_at(&s.measure, s.memory);
+  std::construct_at(&s.analysis, s.memory);
+  std::construct_at(&s.basis, s.memory);
+  std::construct_at(&s.simplex, s.memory, s.basis);
+}
 
 }  // namespace mlcp
