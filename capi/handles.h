@@ -101,6 +101,15 @@ mlcp_status look(const Handle* handle, Call call) noexcept {
   return guard(nullptr, [&] { call(*handle); });
 }
 
+/// A call whose text goes to the caller, "" when it is done; cut to `size` bytes.
+template <class Call>
+mlcp_status tell(char* message, std::size_t size, Call call) noexcept {
+  ErrorText error;
+  const mlcp_status status = guard(&error, call);
+  if (message) std::snprintf(message, size, "%s", error.text);
+  return status;
+}
+
 inline void require(const void* pointer, const char* name) {
   if (!pointer) throw Error(MLCP_ERROR_NULL, "%s is NULL", name);
 }

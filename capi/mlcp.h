@@ -23,7 +23,8 @@
  *   Status     Every function that can fail returns mlcp_status; MLCP_OK is 0. How a solve ended is mlcp_outcome, in the report.
  *   Errors     The text of the last failure lives in the object that was edited or used (mlcp_problem_error,
  *              mlcp_mask_error, mlcp_solver_error) and names the argument and the index. Functions that take a const
- *              object leave no text. A call that fails changes nothing; a bulk call is all or nothing.
+ *              object leave no text; those for snapshots give it to the caller. A call that fails changes nothing; a bulk
+ *              call is all or nothing.
  *   Ownership  Input arrays are copied before the call returns. What an object lends through a pointer is valid until the
  *              next call that takes that object as non-const. Handles are freed by their destroy function; destroy(NULL) is fine.
  *   Threads    Objects share nothing. One object may be used by one thread at a time, except that any number of threads
@@ -90,7 +91,7 @@ enum {
   MLCP_INTERRUPTED = 4,           /* the progress callback asked to stop */
   MLCP_INFEASIBLE = 5,            /* rows contradict each other; the certificate names them */
   MLCP_UNBOUNDED = 6,             /* only for semidefinite M: a ray along which the energy falls without end */
-  MLCP_NOT_POSITIVE_DEFINITE = 7, /* M (or S of a reduced problem) is indefinite; the report names the body */
+  MLCP_NOT_POSITIVE_DEFINITE = 7, /* M (or S of a reduced problem) is indefinite; the report names body and velocity */
   MLCP_BAD_INPUT = 8              /* never returned in a report: input is checked as it is added */
 };
 
@@ -154,7 +155,8 @@ MLCP_API mlcp_status mlcp_problem_bodies_add(mlcp_problem *problem, int32_t coun
 
 /* Adds one body whose mass is sparse (articulated, flexible): dimension x dimension, compressed columns (or rows, it is
  * symmetric), column_pointers has dimension + 1 entries, row_indices and values column_pointers[dimension]. Entries may
- * be in any order, no (row, column) twice. Definiteness is judged in the solve. */
+ * be in any order, no (row, column) twice. The triangle is that of compressed columns: whoever passes the lower triangle as
+ * compressed rows says MLCP_UPPER. Definiteness is judged in the solve. */
 MLCP_API mlcp_status mlcp_problem_body_add_sparse(mlcp_problem *problem, int32_t dimension, const int32_t *column_pointers,
                                                   const int32_t *row_indices, const double *values, mlcp_triangle triangle,
                                                   int32_t *id);
@@ -169,11 +171,20 @@ MLCP_API mlcp_status mlcp_problem_body_remove(mlcp_problem *problem, int32_t bod
 /* First velocity of a body in v and k, and its dimension; either pointer may be NULL. */
 MLCP_API mlcp_status mlcp_problem_body_range(const mlcp_problem *problem, int32_t body, int32_t *offset, int32_t *dimension);
 
+/* Ids of the bodies that there are, ascending. count is set to their number; ids may be NULL to ask for it; MLCP_ERROR_RANGE if
+ * capacity is too small. */
+MLCP_API mlcp_status mlcp_problem_bodies(const mlcp_problem *problem, int32_t capacity, int32_t *ids, int32_t *count);
+
 /* Makes a body prescribed (static, kinematic, asleep): its velocity is given, `count` = its dimension doubles. Its columns
  * move into the right-hand side and it joins no islands; mlcp_solver_reaction reads the impulse on it. */
 MLCP_API mlcp_status mlcp_problem_body_set_prescribed(mlcp_problem *problem, int32_t body, const double *velocity,
                                                       int32_t count);
 MLCP_API mlcp_status mlcp_problem_body_set_dynamic(mlcp_problem *problem, int32_t body);
+
+/* Whether a body is prescribed (1 or 0) and its given velocity, `count` = its dimension doubles, zeros for a dynamic body. Either
+ * pointer may be NULL; count does not matter without velocity. */
+MLCP_API mlcp_status mlcp_problem_body_state(const mlcp_problem *problem, int32_t body, int32_t *prescribed, int32_t count,
+                                             double *velocity);
 
 /* k, for velocities first .. first + count - 1. */
 MLCP_API mlcp_status mlcp_problem_set_momentum(mlcp_problem *problem, int32_t first, int32_t count, const double *k);
@@ -245,7 +256,8 @@ MLCP_API mlcp_status mlcp_problem_rows_add_csc(mlcp_problem *problem, int32_t co
                                                const uint64_t *key, int32_t *first);
 
 /* S as a whole, count x count with count = m, symmetric, replacing every compliance; both triangles or one. Diagonal entries >= 0
- * for rows with an entry of J, any finite value in a reduced problem. Rows added later have only their diagonal. */
+ * for rows with an entry of J, any finite value in a reduced problem. Rows added later have only their diagonal. The triangle is
+ * that of compressed columns: whoever passes the lower triangle as compressed rows says MLCP_UPPER. */
 MLCP_API mlcp_status mlcp_problem_set_compliance_matrix(mlcp_problem *problem, int32_t count, const int32_t *column_pointers,
                                                         const int32_t *row_indices, const double *values,
                                                         mlcp_triangle triangle);
@@ -423,7 +435,7 @@ typedef struct mlcp_report {
   double largest_error;          /* the larger of the two */
   double momentum_residual;      /* max |Mv - J'g - k|_i in N.s */
   double constraint_residual;    /* max |median(w, a(g - lo), a(g - hi))|_i in m/s */
-  int32_t worst_velocity;        /* where momentum_error is, -1 if n = 0 */
+  int32_t worst_velocity;        /* where momentum_error is, -1 if n = 0; NOT_POSITIVE_DEFINITE: whose pivot failed */
   int32_t worst_row;             /* where constraint_error is, -1 if there is none */
   int32_t worst_body;            /* NOT_POSITIVE_DEFINITE: the body whose mass is not; else -1. Row for a reduced problem. */
   int32_t islands;               /* connected components of dynamic bodies and enabled rows */
@@ -465,7 +477,8 @@ MLCP_API mlcp_status mlcp_solver_impulses(const mlcp_solver *solver, const doubl
 MLCP_API mlcp_status mlcp_solver_slacks(const mlcp_solver *solver, const double **w, int32_t *count);
 /* States and keys of the rows at the end: the start of the next step. */
 MLCP_API mlcp_status mlcp_solver_mask(const mlcp_solver *solver, const mlcp_mask **mask);
-/* 1 for rows found dependent on active ones and therefore not factored (their impulse is at a bound or 0). */
+/* 1 for rows found dependent on active ones and therefore not factored (their impulse is at a bound or 0). None is looked for in
+ * an island that a limit of work or time or the progress callback stopped. */
 MLCP_API mlcp_status mlcp_solver_redundant(const mlcp_solver *solver, const uint8_t **redundant, int32_t *count);
 /* Copies in single precision; entries stride_bytes apart (0: packed). */
 MLCP_API mlcp_status mlcp_solver_read_velocities_f32(const mlcp_solver *solver, int32_t count, float *v, ptrdiff_t stride_bytes);
@@ -500,20 +513,26 @@ MLCP_API mlcp_status mlcp_solver_trace(const mlcp_solver *solver, const mlcp_piv
 
 /* --------------------------------------------------------------------------------------------------------- snapshot */
 
+/* All four: message, NULL or message_size bytes, gets the cause of a failure (the file and what the system says of it, or the
+ * part of the snapshot, argument and index), "" when there is none; cut to fit and always terminated, whole in 512 bytes. */
+
 /* A file that holds problem, settings, enabled mask, start and ordering, and replays to the same bits with the same build. Little
  * endian, compressed, with checksum; written beside the target and renamed, so that a full disk leaves an old file as it was. solver:
  * gives settings and ordering, NULL for the defaults; masks may be NULL. */
 MLCP_API mlcp_status mlcp_snapshot_save(const char *path, const mlcp_problem *problem, const mlcp_solver *solver,
-                                        const mlcp_mask *enabled, const mlcp_mask *start);
+                                        const mlcp_mask *enabled, const mlcp_mask *start, char *message, size_t message_size);
 /* The same as bytes: size is set to what is needed; buffer may be NULL to ask for it; MLCP_ERROR_RANGE if capacity is too small. */
 MLCP_API mlcp_status mlcp_snapshot_write(const mlcp_problem *problem, const mlcp_solver *solver, const mlcp_mask *enabled,
-                                         const mlcp_mask *start, size_t capacity, void *buffer, size_t *size);
+                                         const mlcp_mask *start, size_t capacity, void *buffer, size_t *size, char *message,
+                                         size_t message_size);
 /* Makes new objects; each output may be NULL if not wanted; masks that were not saved come back NULL. Files are not trusted: everything
  * is validated as if it were added by calls. */
 MLCP_API mlcp_status mlcp_snapshot_load(const char *path, const mlcp_allocator *allocator, mlcp_problem **problem,
-                                        mlcp_solver **solver, mlcp_mask **enabled, mlcp_mask **start);
+                                        mlcp_solver **solver, mlcp_mask **enabled, mlcp_mask **start, char *message,
+                                        size_t message_size);
 MLCP_API mlcp_status mlcp_snapshot_read(const void *bytes, size_t size, const mlcp_allocator *allocator,
-                                        mlcp_problem **problem, mlcp_solver **solver, mlcp_mask **enabled, mlcp_mask **start);
+                                        mlcp_problem **problem, mlcp_solver **solver, mlcp_mask **enabled, mlcp_mask **start,
+                                        char *message, size_t message_size);
 
 #ifdef __cplusplus
 }

@@ -99,12 +99,34 @@ mlcp_status mlcp_problem_body_range(const mlcp_problem* problem, int32_t body, i
   });
 }
 
+mlcp_status mlcp_problem_bodies(const mlcp_problem* problem, int32_t capacity, int32_t* ids, int32_t* count) {
+  return look(problem, [&](const mlcp_problem& p) {
+    check_count("capacity", capacity);
+    require(count, "count");
+    *count = mlcp_problem_body_count(problem);
+    if (!ids) return;
+    if (capacity < *count) throw Error(MLCP_ERROR_RANGE, "capacity = %d, but %d are needed", capacity, *count);
+    for (size_t id = 0; id < p.problem.bodies.size(); ++id)
+      if (p.problem.bodies[id].dimension > 0) *ids++ = static_cast<int32_t>(id);
+  });
+}
+
 mlcp_status mlcp_problem_body_set_prescribed(mlcp_problem* problem, int32_t body, const double* velocity, int32_t count) {
   return edit(problem, [&](mlcp_problem& p) { body_set_prescribed(p.problem, body, velocity, count); });
 }
 
 mlcp_status mlcp_problem_body_set_dynamic(mlcp_problem* problem, int32_t body) {
   return edit(problem, [&](mlcp_problem& p) { body_set_dynamic(p.problem, body); });
+}
+
+mlcp_status mlcp_problem_body_state(const mlcp_problem* problem, int32_t body, int32_t* prescribed, int32_t count,
+                                    double* velocity) {
+  return look(problem, [&](const mlcp_problem& p) {
+    const Body& b = body_at(p.problem, body);
+    if (velocity) check_length("count", count, b.dimension);
+    set_if(prescribed, b.prescribed);
+    if (velocity) std::copy_n(p.problem.given_velocity.data() + b.offset, count, velocity);
+  });
 }
 
 mlcp_status mlcp_problem_set_momentum(mlcp_problem* problem, int32_t first, int32_t count, const double* k) {

@@ -70,21 +70,26 @@ void make_objects(const Memory& memory, Snapshot& snapshot, const Outputs& out) 
 }  // namespace
 
 mlcp_status mlcp_snapshot_save(const char* path, const mlcp_problem* problem, const mlcp_solver* solver, const mlcp_mask* enabled,
-                               const mlcp_mask* start) {
-  return look(problem, [&](const mlcp_problem& p) {
+                               const mlcp_mask* start, char* message, size_t message_size) {
+  return tell(message, message_size, [&] {
     require(path, "path");
+    require(problem, "problem");
     const Settings defaults = default_settings();
-    snapshot_save(p.problem.memory, path, source_of(p.problem, solver, defaults, enabled, start));
+    const Problem& p = problem->problem;
+    snapshot_save(p.memory, path, source_of(p, solver, defaults, enabled, start));
   });
 }
 
 mlcp_status mlcp_snapshot_write(const mlcp_problem* problem, const mlcp_solver* solver, const mlcp_mask* enabled,
-                                const mlcp_mask* start, size_t capacity, void* buffer, size_t* size) {
-  return look(problem, [&](const mlcp_problem& p) {
+                                const mlcp_mask* start, size_t capacity, void* buffer, size_t* size, char* message,
+                                size_t message_size) {
+  return tell(message, message_size, [&] {
+    require(problem, "problem");
     require(size, "size");
     const Settings defaults = default_settings();
-    Array<uint8_t> bytes(p.problem.memory);
-    snapshot_write(source_of(p.problem, solver, defaults, enabled, start), bytes);
+    const Problem& p = problem->problem;
+    Array<uint8_t> bytes(p.memory);
+    snapshot_write(source_of(p, solver, defaults, enabled, start), bytes);
     *size = bytes.size();
     if (!buffer) return;
     if (capacity < bytes.size()) throw Error(MLCP_ERROR_RANGE, "capacity = %zu, but %zu are needed", capacity, bytes.size());
@@ -93,10 +98,10 @@ mlcp_status mlcp_snapshot_write(const mlcp_problem* problem, const mlcp_solver* 
 }
 
 mlcp_status mlcp_snapshot_load(const char* path, const mlcp_allocator* allocator, mlcp_problem** problem, mlcp_solver** solver,
-                               mlcp_mask** enabled, mlcp_mask** start) {
+                               mlcp_mask** enabled, mlcp_mask** start, char* message, size_t message_size) {
   const Outputs out{problem, solver, enabled, start};
   out.clear();
-  return guard(nullptr, [&] {
+  return tell(message, message_size, [&] {
     require(path, "path");
     const Memory memory = memory_of(allocator);
     Snapshot snapshot(memory);
@@ -106,10 +111,11 @@ mlcp_status mlcp_snapshot_load(const char* path, const mlcp_allocator* allocator
 }
 
 mlcp_status mlcp_snapshot_read(const void* bytes, size_t size, const mlcp_allocator* allocator, mlcp_problem** problem,
-                               mlcp_solver** solver, mlcp_mask** enabled, mlcp_mask** start) {
+                               mlcp_solver** solver, mlcp_mask** enabled, mlcp_mask** start, char* message,
+                               size_t message_size) {
   const Outputs out{problem, solver, enabled, start};
   out.clear();
-  return guard(nullptr, [&] {
+  return tell(message, message_size, [&] {
     check_bytes(bytes, size);
     const Memory memory = memory_of(allocator);
     Snapshot snapshot(memory);

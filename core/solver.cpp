@@ -27,6 +27,11 @@ int severity(mlcp_outcome outcome) {
   }
 }
 
+/// Stopped from outside: time spent afterwards is not wanted.
+bool cut_short(mlcp_outcome outcome) {
+  return outcome == MLCP_WORK_LIMIT || outcome == MLCP_TIME_LIMIT || outcome == MLCP_INTERRUPTED;
+}
+
 mlcp_row_state row_state(std::uint8_t state) {
   switch (state) {
     case ActiveSet::at_lower: return MLCP_ROW_AT_LOWER;
@@ -53,7 +58,7 @@ struct Solver::State {
   Result result;
   Array<std::int32_t> imposed;
   Errors errors;
-  std::int32_t worst_body = -1;
+  std::int32_t indefinite = -1;  ///< the velocity whose pivot is not positive
 
   State(const Settings& s, const Memory& m)
       : memory(m), settings(s), analysis(m), basis(m), simplex(m, basis), measure(m), result(m), imposed(m) {}
@@ -64,7 +69,7 @@ struct Solver::State {
   void keep_certificate(std::int32_t island);
   void collect(const Problem& problem);
   void judge(const Problem& problem, const Mask* enabled);
-  void fill(mlcp_report& report, const Counts& counts) const;
+  void fill(const Problem& problem, mlcp_report& report, const Counts& counts) const;
 };
 
 Solver::Solver(const Settings& settings, const Memory& memory) {
@@ -121,9 +126,8 @@ void Solver::State::solve_islands(const Problem& problem, Limits& limits, Counts
       limits.enter_island(index, island.last_row - island.first_row);
       simplex.settle(island, limits, counts);
     } else if (outcome == MLCP_NOT_POSITIVE_DEFINITE) {
-      const std::int32_t node = analysis.pattern.node[basis.factor.failed_position()];
-      worst_body = problem.body_of[node];
-    } else {
+      indefinite = analysis.pattern.node[basis.factor.failed_position()];
+    } else if (!cut_short(outcome)) {
       mark_redundant(island, basis, problem.n(), result.redundant.data(), counts);
     }
     result.island_outcome[s] = outcome;
@@ -134,7 +138,7 @@ void Solver::State::solve_islands(const Problem& problem, Limits& limits, Counts
 void Solver::State::solve_free_velocities(const Problem& problem) {
   for (const std::int32_t j : analysis.ordering.free_velocity) {
     const double mass = problem.mass.values[problem.mass.pointers[j]];
-    if (!(mass > 0)) worst_body = problem.body_of[j];
+    if (!(mass > 0)) indefinite = j;
     result.v[j] = mass > 0 ? problem.momentum[j] / mass : 0;
   }
 }
@@ -187,8 +191,8 @@ void Solver::State::judge(const Problem& problem, const Mask* enabled) {
   }
 }
 
-void Solver::State::fill(mlcp_report& report, const Counts& counts) const {
-  report.outcome = worst_body >= 0 ? MLCP_NOT_POSITIVE_DEFINITE : MLCP_SOLVED;
+void Solver::State::fill(const Problem& problem, mlcp_report& report, const Counts& counts) const {
+  report.outcome = indefinite >= 0 ? MLCP_NOT_POSITIVE_DEFINITE : MLCP_SOLVED;
   report.islands = static_cast<std::int32_t>(result.island_outcome.size());
   report.islands_failed = 0;
   for (const mlcp_outcome o : result.island_outcome) {
@@ -202,9 +206,9 @@ void Solver::State::fill(mlcp_report& report, const Counts& counts) const {
   report.largest_error = errors.largest();
   report.momentum_residual = errors.momentum_residual;
   report.constraint_residual = errors.constraint_residual;
-  report.worst_velocity = errors.worst_velocity;
+  report.worst_velocity = indefinite >= 0 ? indefinite : errors.worst_velocity;
   report.worst_row = errors.worst_row;
-  report.worst_body = worst_body;
+  report.worst_body = indefinite >= 0 ? problem.body_of[indefinite] : -1;
   report.enabled_rows = report.active_rows = report.redundant_rows = 0;
   for (std::size_t i = 0; i < result.mask.state.size(); ++i) {
     report.enabled_rows += result.mask.state[i] != MLCP_ROW_DISABLED;
@@ -231,7 +235,7 @@ void Solver::solve(const Problem& problem, const Mask* enabled, const Mask* star
   limits.set_islands(static_cast<std::int32_t>(s.analysis.symbolic.islands.size()));
 
   Counts counts;
-  s.worst_body = -1;
+  s.indefinite = -1;
   s.result.v.assign(problem.n(), 0.0);
   s.result.redundant.assign(problem.m(), 0);
   s.result.trace.clear();
@@ -246,7 +250,7 @@ void Solver::solve(const Problem& problem, const Mask* enabled, const Mask* star
   const double after_solve = limits.seconds();
   s.collect(problem);
   s.judge(problem, enabled);
-  s.fill(report, counts);
+  s.fill(problem, report, counts);
   report.analyzed = analyzed;
   report.seconds_analyze = analyzed ? after_analysis : 0;
   report.seconds_solve = after_solve - after_analysis - counts.seconds_factorize;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "factorize/kernels.h"
-
 namespace mlcp {
 
 void Factor::prepare(const KktPattern& pattern, const Symbolic& symbolic, const KktValues& values) {
@@ -46,7 +44,7 @@ FactorStatus Factor::factorize(const Island& island, const std::uint8_t* wanted,
       if (in_[p]) {
         const double f = values_[t] * inverse_[k];
         d -= values_[t] * f;
-        kernels::scatter_subtract(start[k + 1] - t - 1, rows + t + 1, values_.data() + t + 1, f, y_.data());
+        for (std::int64_t u = t + 1; u < start[k + 1]; ++u) y_[rows[u]] -= values_[u] * f;
         work += start[k + 1] - t;
       }
       if (cursor_[k] < start[k + 1]) {
@@ -137,86 +135,29 @@ void Factor::clear_row(std::int32_t p, std::int64_t& work) {
     for (std::int32_t q = pattern_->upper_rows[t]; q >= 0 && q < p && mark_[q] == p; q = symbolic_->parent[q]) mark_[q] = -1;
 }
 
-Factor::Stretch Factor::stretch(std::int32_t first, std::int32_t last) const {
+Stretch Factor::stretch(std::int32_t first, std::int32_t last) const {
   const std::int64_t start = symbolic_->pointers[first];
   return {first, last, symbolic_->pointers[first + 1] - start, symbolic_->rows.data() + start};
 }
 
-template <class Visit>
-void Factor::forward(const Stretch& s, double* y, std::int64_t& work, Visit visit) const {
-  if (s.last - s.first == 1) {
-    const std::int32_t j = s.first;
-    if (!in_[j] || y[j] == 0) return;
-    const double f = y[j] * inverse_[j];
-    kernels::scatter_subtract(s.count, s.rows, column(j), f, y);
-    work += s.count;
-    visit(j, f, y[j]);
-    return;
-  }
-  double* dense = gathered(s.first);
-  kernels::gather(s.count, s.rows, y, dense);
-  for (std::int32_t j = s.first; j < s.last; ++j) {
-    const std::int64_t k = j - s.first;
-    const double yj = k ? dense[k - 1] : y[j];
-    if (!in_[j] || yj == 0) continue;
-    const double f = yj * inverse_[j];
-    kernels::subtract(s.count - k, column(j), f, dense + k);
-    work += s.count - k;
-    visit(j, f, yj);
-  }
-  kernels::scatter(s.count, s.rows, dense, y);
+FactorArrays Factor::arrays() const {
+  const auto writable = [](const Array<double>& a) { return const_cast<double*>(a.data()); };
+  return {writable(values_), symbolic_->pointers.data(), in_.data(), writable(pivot_), writable(inverse_), writable(gathered_)};
 }
 
-void Factor::backward(const Stretch& s, double* x, std::int64_t& work) const {
-  std::int32_t j = s.last - 1;
-  while (j >= s.first && !in_[j]) --j;
-  if (j < s.first) return;
-  if (j == s.first) {
-    x[j] = inverse_[j] * (x[j] - kernels::gather_dot(s.count, s.rows, column(j), x));
-    work += s.count;
-    return;
-  }
-  double* dense = gathered(s.first);
-  kernels::gather(s.count, s.rows, x, dense);
-  for (; j >= s.first; --j) {
-    if (!in_[j]) continue;
-    const std::int64_t k = j - s.first;
-    x[j] = inverse_[j] * (x[j] - kernels::dot(s.count - k, column(j), dense + k));
-    if (k) dense[k - 1] = x[j];
-    work += s.count - k;
-  }
-}
-
-/// Trailing matrix += σ w wᵀ with w = C(p+1:,p), along the path. Gill, Golub, Murray & Saunders (1974), method C1, on C = L D:
-///     d' = d + σ w_j²,  c' = c + σ w_j w,  w := w − (w_j/d) c,  σ := σ d/d'.
 FactorStatus Factor::rank_one(std::int32_t p, double sigma, std::int64_t& work) {
-  double* y = y_.data();
-  kernels::scatter(symbolic_->pointers[p + 1] - symbolic_->pointers[p], symbolic_->rows.data() + symbolic_->pointers[p], column(p), y);
-  FactorStatus status = FactorStatus::ok;
-  for (std::int32_t first = symbolic_->parent[p]; first >= 0;) {
-    const Stretch s = stretch(first, symbolic_->run_end[first]);
-    double* dense = gathered(s.first);
-    kernels::gather(s.count, s.rows, y, dense);
-    for (std::int32_t j = s.first; j < s.last; ++j) {
-      const std::int64_t k = j - s.first;
-      const double w = k ? dense[k - 1] : y[j];
-      if (w == 0 || status != FactorStatus::ok) continue;
-      const double d = pivot_[j], updated = d + sigma * w * w;
-      if (!(std::abs(updated) > 1e-12 * std::abs(d)) || (updated > 0) != (d > 0)) {
-        status = FactorStatus::small_pivot;
-        continue;
-      }
-      kernels::rank_one_column(s.count - k, column(j), dense + k, w / d, sigma * w);
-      pivot_[j] = updated;
-      inverse_[j] = 1 / updated;
-      sigma *= d / updated;
-      work += s.count - k;
-    }
-    kernels::scatter(s.count, s.rows, dense, y);
-    std::fill(y + s.first, y + s.last, 0.0);
-    first = symbolic_->parent[s.last - 1];
+  const FactorArrays f = arrays();
+  double* w = y_.data();
+  for (std::int64_t t = symbolic_->pointers[p]; t < symbolic_->pointers[p + 1]; ++t) w[symbolic_->rows[t]] = values_[t];
+  std::int32_t first = symbolic_->parent[p];
+  for (; first >= 0; first = symbolic_->parent[symbolic_->run_end[first] - 1]) {
+    const std::int64_t touched = kernels_->rank_one(f, stretch(first, symbolic_->run_end[first]), w, sigma);
+    if (touched < 0) break;
+    work += touched;
   }
-  return status;
+  if (first < 0) return FactorStatus::ok;
+  for (; first >= 0; first = symbolic_->parent[first]) w[first] = 0;
+  return FactorStatus::small_pivot;
 }
 
 FactorStatus Factor::remove(std::int32_t p, std::int64_t& work) {
@@ -235,13 +176,17 @@ FactorStatus Factor::insert(std::int32_t p, std::int64_t& work) {
     if (in_[pattern_->row_columns[t]]) y[pattern_->row_columns[t]] = kkt_->row[t];
   double d = kkt_->diagonal[p];
   // row p of L: L(:p,:p) D l = K(:p,p); its entries in C are y_j
+  const FactorArrays f = arrays();
   for_each_stretch(reach(p, p, p), p, [&](const Stretch& s) {
+    work += kernels_->forward(f, s, y);
     const std::int64_t place = std::lower_bound(s.rows, s.rows + s.count, p) - s.rows;
-    forward(s, y, work, [&](std::int32_t j, double f, double yj) {
-      d -= yj * f;
-      column(j)[place - (j - s.first)] = yj;
-    });
-    std::fill(y + s.first, y + s.last, 0.0);
+    for (std::int32_t j = s.first; j < s.last; ++j) {
+      if (in_[j] && y[j] != 0) {
+        d -= y[j] * (y[j] * inverse_[j]);
+        values_[symbolic_->pointers[j] + place - (j - s.first)] = y[j];
+      }
+      y[j] = 0;
+    }
   });
   y[p] = 0;
   const std::int64_t begin = symbolic_->pointers[p], end = symbolic_->pointers[p + 1];
@@ -259,18 +204,17 @@ FactorStatus Factor::insert(std::int32_t p, std::int64_t& work) {
 void Factor::solve(const Island& island, double* x, std::int64_t& work) const {
   for (std::int32_t j = island.first; j < island.last; ++j)
     if (!in_[j]) x[j] = 0;
-  for (std::int32_t first = island.first; first < island.last; first = symbolic_->run_end[first]) {
-    const Stretch s = stretch(first, symbolic_->run_end[first]);
-    forward(s, x, work, [](std::int32_t, double, double) {});
-  }
+  const FactorArrays f = arrays();
+  for (std::int32_t first = island.first; first < island.last; first = symbolic_->run_end[first])
+    work += kernels_->forward(f, stretch(first, symbolic_->run_end[first]), x);
   backward_all(island, x, work);
 }
 
 void Factor::backward_all(const Island& island, double* x, std::int64_t& work) const {
-  for (std::int32_t last = island.last; last > island.first;) {
-    const std::int32_t first = symbolic_->run_start[last - 1];
-    backward(stretch(first, last), x, work);
-    last = first;
+  const FactorArrays f = arrays();
+  for (std::int32_t last = island.last, first; last > island.first; last = first) {
+    first = symbolic_->run_start[last - 1];
+    work += kernels_->backward(f, stretch(first, last), x);
   }
 }
 
@@ -280,9 +224,13 @@ double Factor::forward_row(std::int32_t p, std::int32_t last, double* x, bool ke
   for (std::int32_t t = pattern_->row_pointers[o]; t < pattern_->row_pointers[o + 1]; ++t)
     if (in_[pattern_->row_columns[t]]) x[pattern_->row_columns[t]] = kkt_->row[t];
   double schur = kkt_->diagonal[p];
+  const FactorArrays f = arrays();
   for_each_stretch(reach(p, last, last), last, [&](const Stretch& s) {
-    forward(s, x, work, [&](std::int32_t, double f, double xj) { schur -= xj * f; });
-    if (!keep) std::fill(x + s.first, x + s.last, 0.0);
+    work += kernels_->forward(f, s, x);
+    for (std::int32_t j = s.first; j < s.last; ++j) {
+      schur -= x[j] * (x[j] * inverse_[j]);  // 1/d = 0 for what is out
+      if (!keep) x[j] = 0;
+    }
   });
   return schur;
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include "analyze/symbolic.h"
+#include "factorize/kernels.h"
 #include "factorize/kkt_values.h"
 
 namespace mlcp {
@@ -55,21 +56,8 @@ class Factor {
 
  private:
   std::int32_t reach(std::int32_t p, std::int32_t below, std::int32_t last);
-  /// Columns first .. last − 1 of one run. Column j has the rows of column first from the (j − first)-th on, so that what all of them act
-  /// on is gathered once, behind which each column is one dense loop.
-  struct Stretch {
-    std::int32_t first, last;
-    std::int64_t count;         ///< rows of column first
-    const std::int32_t* rows;
-  };
   Stretch stretch(std::int32_t first, std::int32_t last) const;
-  double* gathered(std::int32_t first) const { return gathered_.data() + first; }
-  const double* column(std::int32_t j) const { return values_.data() + symbolic_->pointers[j]; }
-  double* column(std::int32_t j) { return values_.data() + symbolic_->pointers[j]; }
-  /// y := y − C(:,j) y_j/d_j for the columns of a stretch, in order. visit(j, y_j/d_j, y_j) sees each column that is in and y_j ≠ 0.
-  template <class Visit>
-  void forward(const Stretch& s, double* y, std::int64_t& work, Visit visit) const;
-  void backward(const Stretch& s, double* x, std::int64_t& work) const;
+  FactorArrays arrays() const;
   void backward_all(const Island& island, double* x, std::int64_t& work) const;
   template <class Visit>
   void for_each_stretch(std::int32_t top, std::int32_t last, Visit visit);
@@ -78,6 +66,7 @@ class Factor {
   FactorStatus rank_one(std::int32_t p, double sigma, std::int64_t& work);
   void clear_row(std::int32_t p, std::int64_t& work);
 
+  const Kernels* kernels_ = &kernels_for_this_cpu();
   const KktPattern* pattern_ = nullptr;
   const Symbolic* symbolic_ = nullptr;
   const KktValues* kkt_ = nullptr;
@@ -87,7 +76,7 @@ class Factor {
   Array<std::int32_t> next_, head_;  // columns whose next row is p, while factoring
   Array<std::int64_t> cursor_;
   Array<double> y_;                  // 0 between calls
-  mutable Array<double> gathered_;   // dense copy of what a stretch acts on, from its first column on
+  Array<double> gathered_;           // workspace of the kernels
   Array<std::int32_t> mark_, reach_; // mark_ is −1 between calls
   std::int32_t failed_ = -1;
 };

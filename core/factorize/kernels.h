@@ -1,56 +1,44 @@
 #pragma once
 #include <cstdint>
 
-/// The loops over entries of L. Columns of one run share their rows, so that what they act on is gathered once a run and then lies
-/// dense. Sums have one fixed order, whatever the machine.
-namespace mlcp::kernels {
+namespace mlcp {
 
-/// y[rows[i]] −= c[i] · t
-inline void scatter_subtract(std::int64_t count, const std::int32_t* rows, const double* c, double t, double* y) {
-  for (std::int64_t i = 0; i < count; ++i) y[rows[i]] -= c[i] * t;
-}
+/// Columns first .. last − 1 that nest: column j has the rows of column first from the (j − first)-th on, so that what all of them act on
+/// is gathered once, behind which each column is one dense loop.
+struct Stretch {
+  std::int32_t first, last;
+  std::int64_t count;            ///< rows of column first
+  const std::int32_t* rows;
+};
 
-/// y[i] −= c[i] · t
-inline void subtract(std::int64_t count, const double* __restrict c, double t, double* __restrict y) {
-  for (std::int64_t i = 0; i < count; ++i) y[i] -= c[i] * t;
-}
+/// What the loops over entries of L work on; by position, column j's entries from values + pointers[j] on.
+struct FactorArrays {
+  double* values;                ///< C = L D
+  const std::int64_t* pointers;
+  const std::uint8_t* in;
+  double* pivot;
+  double* inverse;               ///< 1/d, 0 for what is out
+  double* gathered;              ///< room for a stretch from its first column on
+};
 
-/// Σ c[i] · x[i] in four interleaved sums, which two vectors of two hold.
-inline double dot(std::int64_t count, const double* __restrict c, const double* __restrict x) {
-  double s[4] = {0, 0, 0, 0};
-  std::int64_t i = 0;
-  for (; i + 4 <= count; i += 4)
-    for (int k = 0; k < 4; ++k) s[k] += c[i + k] * x[i + k];
-  for (; i < count; ++i) s[0] += c[i] * x[i];
-  return (s[0] + s[2]) + (s[1] + s[3]);
-}
+/// The hot loops, once for every x86-64 CPU and once for those with AVX2. Sums go into four interleaved parts in both, products are
+/// not fused: both give the same bits. Each returns the entries that it touched.
+struct Kernels {
+  /// y := y − C(:,j) y_j/d_j for the columns of a stretch that are in, in order.
+  std::int64_t (*forward)(const FactorArrays&, const Stretch&, double* y);
+  /// x_j := (x_j − C(:,j)ᵀ x) / d_j for the columns of a stretch that are in, in reverse.
+  std::int64_t (*backward)(const FactorArrays&, const Stretch&, double* x);
+  /// One stretch of the rank-1 update "trailing matrix += σ w wᵀ". Gill, Golub, Murray & Saunders (1974), method C1, on C = L D:
+  ///     d' = d + σ w_j²,  c' = c + σ w_j w,  w := w − (w_j/d) c,  σ := σ d/d'.
+  /// after: w is 0 on the stretch's columns; negative: a pivot cancels or changes sign, the factor is stale.
+  std::int64_t (*rank_one)(const FactorArrays&, const Stretch&, double* w, double& sigma);
+};
 
-/// Σ c[i] · x[rows[i]]
-inline double gather_dot(std::int64_t count, const std::int32_t* rows, const double* c, const double* x) {
-  double s[2] = {0, 0};
-  std::int64_t i = 0;
-  for (; i + 2 <= count; i += 2) {
-    s[0] += c[i] * x[rows[i]];
-    s[1] += c[i + 1] * x[rows[i + 1]];
-  }
-  return i < count ? s[0] + s[1] + c[i] * x[rows[i]] : s[0] + s[1];
-}
+/// The table for the CPU this runs on.
+const Kernels& kernels_for_this_cpu();
+extern const Kernels portable_kernels;
+#if defined(__x86_64__)
+extern const Kernels avx2_kernels;
+#endif
 
-/// One column of a rank-1 update: c[i] += δ w[i], w[i] −= β c[i](old).
-inline void rank_one_column(std::int64_t count, double* __restrict c, double* __restrict w, double beta, double delta) {
-  for (std::int64_t i = 0; i < count; ++i) {
-    const double wi = w[i], ci = c[i];
-    c[i] = ci + delta * wi;
-    w[i] = wi - beta * ci;
-  }
-}
-
-inline void gather(std::int64_t count, const std::int32_t* rows, const double* y, double* dense) {
-  for (std::int64_t i = 0; i < count; ++i) dense[i] = y[rows[i]];
-}
-
-inline void scatter(std::int64_t count, const std::int32_t* rows, const double* dense, double* y) {
-  for (std::int64_t i = 0; i < count; ++i) y[rows[i]] = dense[i];
-}
-
-}  // namespace mlcp::kernels
+}  // namespace mlcp

@@ -58,10 +58,15 @@ void KktValues::load(const Problem& problem, const KktPattern& pattern) {
     lo[o] = problem.lo[i];
     hi[o] = problem.hi[i];
     double r = problem.r[i];
-    for (std::int32_t t = j.pointers[i]; t < j.pointers[i + 1]; ++t)
-      if (pattern.position[j.indices[t]] < 0) r -= j.values[t] * problem.given_velocity[j.indices[t]];
+    terms += std::abs(r);
+    for (std::int32_t t = j.pointers[i]; t < j.pointers[i + 1]; ++t) {
+      if (pattern.position[j.indices[t]] >= 0) continue;
+      const double given = j.values[t] * problem.given_velocity[j.indices[t]];
+      r -= given;
+      terms += 2 * std::abs(given);  // v and v₀
+    }
     b[p] = r;
-    size[p] = std::abs(r) + terms;
+    size[p] = terms;
   }
 }
 

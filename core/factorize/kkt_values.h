@@ -12,7 +12,7 @@ struct KktValues {
   Array<double> diagonal;  ///< size
   Array<double> row;       ///< as KktPattern::row_columns
   Array<double> b;         ///< size
-  Array<double> size;      ///< |b|, for rows plus |J||v₀| with v₀ⱼ = kⱼ/Mⱼⱼ: terms that the error of a row is relative to
+  Array<double> size;      ///< |k|; |r| + |J||v₀| + 2|J||v_given| with v₀ⱼ = kⱼ/Mⱼⱼ: terms that the errors are relative to
   Array<double> a;         ///< ordinals: aᵢ = Σⱼ Jᵢⱼ²/Mⱼⱼ + Σᵢᵢ over dynamic velocities
   Array<double> root_a;    ///< ordinals: √aᵢ, 1 where aᵢ = 0
   Array<double> lo, hi;    ///< ordinals

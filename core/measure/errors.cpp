@@ -42,7 +42,7 @@ void Measure::momentum(const Problem& problem, std::span<const double> v, std::s
   for (std::int32_t j = 0; j < n; ++j) {
     if (problem.prescribed(j)) continue;
     const double residual = or_infinite(std::abs(static_cast<double>(sum_[j])));
-    const double relative = or_infinite(size_[j] > 0 ? residual / size_[j] : residual);
+    const double relative = !std::isfinite(size_[j]) ? infinity : or_infinite(size_[j] > 0 ? residual / size_[j] : residual);
     velocity_error[j] = relative;
     e.momentum_residual = std::max(e.momentum_residual, residual);
     if (e.worst_velocity < 0 || relative > e.momentum) e.worst_velocity = j;
@@ -93,7 +93,7 @@ void Measure::rows(const Problem& problem, const Mask* enabled, std::span<const 
     if (!(a[i] > 0)) a[i] = largest_a > 0 ? largest_a : 1;
     const double residual = or_infinite(std::abs(natural_residual(w[i], a[i], gamma[i], problem.lo[i], problem.hi[i])));
     error[i] = or_infinite(residual / scale[i]);
-    if (!std::isfinite(gamma[i])) error[i] = infinity;
+    if (!std::isfinite(gamma[i]) || !std::isfinite(w[i]) || !std::isfinite(scale[i])) error[i] = infinity;
     e.constraint_residual = std::max(e.constraint_residual, residual);
     if (e.worst_row < 0 || error[i] > e.constraints) e.worst_row = i;
     e.constraints = std::max(e.constraints, error[i]);

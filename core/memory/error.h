@@ -9,7 +9,7 @@ namespace mlcp {
 /// What a call refuses and why. The text names the argument and the index; it needs no allocation.
 struct Error {
   mlcp_status status;
-  char text[240];
+  char text[512];
 
   [[gnu::format(printf, 3, 4)]] Error(mlcp_status s, const char* format, ...) : status(s) {
     std::va_list arguments;

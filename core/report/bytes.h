@@ -46,9 +46,10 @@ class ByteWriter {
 /// fails: Error (FORMAT) at the end of the bytes, before anything is allocated for what is not there.
 class ByteReader {
  public:
-  explicit ByteReader(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
+  explicit ByteReader(std::span<const std::uint8_t> bytes) : size_(bytes.size()), rest_(bytes) {}
 
   std::size_t left() const { return rest_.size(); }
+  std::size_t offset() const { return size_ - rest_.size(); }
   std::uint8_t u8() { return static_cast<std::uint8_t>(get(1)); }
   std::uint32_t u32() { return static_cast<std::uint32_t>(get(4)); }
   std::uint64_t u64() { return get(8); }
@@ -95,6 +96,7 @@ class ByteReader {
     return x;
   }
 
+  std::size_t size_;
   std::span<const std::uint8_t> rest_;
 };
 

@@ -15,7 +15,7 @@ namespace {
 constexpr int attempts = 1000;
 
 [[noreturn]] void fail(const char* what, const char* path, int code) {
-  throw Error(MLCP_ERROR_IO, "%s \"%.120s\": %.60s", what, path, std::strerror(code));
+  throw Error(MLCP_ERROR_IO, "%s \"%.240s\": %.60s", what, path, std::strerror(code));
 }
 
 /// A new file with a name of its own beside `path`; removed unless it took the place of the target.
@@ -89,7 +89,7 @@ void write_file(const Memory& memory, const char* path, std::span<const std::uin
   }
 }
 
-InputFile::InputFile(const char* path) : file_(open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
+InputFile::InputFile(const char* path) : path_(path), file_(open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
   if (file_ < 0) fail("cannot open", path, errno);
   struct stat status;
   const bool known = fstat(file_, &status) == 0;
@@ -107,8 +107,8 @@ void InputFile::read(std::span<std::uint8_t> out) {
   while (!out.empty()) {
     const ssize_t taken = ::read(file_, out.data(), out.size());
     if (taken < 0 && errno == EINTR) continue;
-    if (taken < 0) throw Error(MLCP_ERROR_IO, "cannot read: %.60s", std::strerror(errno));
-    if (taken == 0) throw Error(MLCP_ERROR_IO, "the file became shorter while it was read");
+    if (taken < 0) fail("cannot read", path_, errno);
+    if (taken == 0) throw Error(MLCP_ERROR_IO, "\"%.240s\" became shorter while it was read", path_);
     out = out.subspan(static_cast<std::size_t>(taken));
   }
 }

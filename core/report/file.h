@@ -14,7 +14,7 @@ void write_file(const Memory& memory, const char* path, std::span<const std::uin
 /// A file that is open for reading. Only regular files: their size justifies the memory.
 class InputFile {
  public:
-  explicit InputFile(const char* path);  ///< fails: Error (IO)
+  explicit InputFile(const char* path);  ///< `path` must stay. fails: Error (IO)
   ~InputFile();
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
@@ -24,6 +24,7 @@ class InputFile {
   void read(std::span<std::uint8_t> out);
 
  private:
+  const char* path_;
   int file_;
   std::uint64_t size_ = 0;
 };

@@ -52,11 +52,19 @@ void unpack(const Memory& memory, const Header& header, std::span<const std::uin
   if (checksum(packed) != header.crc) throw Error(MLCP_ERROR_FORMAT, "the snapshot is damaged: its checksum");
   Array<std::uint8_t> payload(memory);
   inflate_bytes(memory, packed, header.size, payload);
-  try {
-    read_payload(memory, payload.span(), out);
-  } catch (const Error& e) {
-    throw Error(MLCP_ERROR_FORMAT, "the snapshot holds what is not legal: %s", e.text);
-  }
+  read_payload(memory, payload.span(), out);
+}
+
+void load(const Memory& memory, InputFile& file, Snapshot& out) {
+  std::uint8_t first[header_size];
+  if (file.size() < header_size) throw Error(MLCP_ERROR_FORMAT, "this is not a snapshot");
+  file.read(first);
+  const Header header = read_header(first);
+  check_size(header, file.size());
+  Array<std::uint8_t> packed(memory);
+  packed.resize(header.packed);
+  file.read(packed.span());
+  unpack(memory, header, packed.span(), out);
 }
 
 void check_mask(const char* name, const Mask* mask, std::int32_t rows) {
@@ -96,15 +104,12 @@ void snapshot_save(const Memory& memory, const char* path, const SnapshotSource&
 
 void snapshot_load(const Memory& memory, const char* path, Snapshot& out) {
   InputFile file(path);
-  std::uint8_t first[header_size];
-  if (file.size() < header_size) throw Error(MLCP_ERROR_FORMAT, "this is not a snapshot");
-  file.read(first);
-  const Header header = read_header(first);
-  check_size(header, file.size());
-  Array<std::uint8_t> packed(memory);
-  packed.resize(header.packed);
-  file.read(packed.span());
-  unpack(memory, header, packed.span(), out);
+  try {
+    load(memory, file, out);
+  } catch (const Error& e) {
+    if (e.status != MLCP_ERROR_FORMAT) throw;
+    throw Error(MLCP_ERROR_FORMAT, "\"%.240s\": %s", path, e.text);
+  }
 }
 
 }  // namespace mlcp

@@ -4,7 +4,7 @@
 namespace mlcp {
 
 void write_payload(const SnapshotSource& source, Array<std::uint8_t>& out);
-/// fails: Error of any kind, bad_alloc; `out` is then half filled.
+/// fails: Error (FORMAT) that names section and offset, bad_alloc; `out` is then half filled.
 void read_payload(const Memory& memory, std::span<const std::uint8_t> payload, Snapshot& out);
 
 }  // namespace mlcp

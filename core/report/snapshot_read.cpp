@@ -17,6 +17,12 @@ struct Scratch {
   explicit Scratch(const Memory& memory) : pointers(memory), indices(memory), values(memory) {}
 };
 
+/// What is being read, for the text of an error.
+struct Place {
+  const char* section = "settings";
+  std::int32_t body = -1;
+};
+
 /// One of the two values that a byte may have.
 bool read_flag(ByteReader& from) {
   const std::uint8_t flag = from.u8();
@@ -58,11 +64,12 @@ std::int32_t read_mass(ByteReader& from, std::int32_t dimension, std::uint8_t ki
   return id;
 }
 
-void read_bodies(const Memory& memory, ByteReader& from, Scratch& scratch, Problem& problem) {
+void read_bodies(const Memory& memory, ByteReader& from, Scratch& scratch, Problem& problem, Place& place) {
   const std::int32_t count = from.count(sizeof(std::int32_t));
   Array<std::uint8_t> used(memory);
   used.assign(count, 0);
   for (std::int32_t i = 0; i < count; ++i) {
+    place = {"body", i};
     const std::int32_t dimension = from.i32();
     if (dimension == 0) continue;
     check_count("dimension", dimension);
@@ -74,8 +81,9 @@ void read_bodies(const Memory& memory, ByteReader& from, Scratch& scratch, Probl
     from.f64s(dimension, scratch.values);
     body_set_prescribed(problem, id, scratch.values.data(), dimension);
   }
-  if (count > 0 && !used.back()) throw Error(MLCP_ERROR_FORMAT, "the last body is free");
+  if (count > 0 && !used.back()) throw Error(MLCP_ERROR_FORMAT, "it is free, but the last one");
   spread_ids(problem, used.span());
+  place = {"momentum"};
   from.f64s(problem.n(), scratch.values);
   set_momentum(problem, 0, problem.n(), scratch.values.data());
 }
@@ -112,18 +120,36 @@ void read_ordering(ByteReader& from, Problem& problem, Array<std::int32_t>& orde
     if (i < 0 || i >= size || !problem.work.marker.insert(i)) throw Error(MLCP_ERROR_FORMAT, "the ordering is none: %d", i);
 }
 
+void read_sections(const Memory& memory, ByteReader& from, Snapshot& out, Place& place) {
+  Scratch scratch(memory);
+  read_settings(from, out.settings);
+  place = {"bodies"};
+  read_bodies(memory, from, scratch, out.problem, place);
+  place = {"rows"};
+  read_rows(memory, from, scratch, out.problem);
+  place = {"enabled mask"};
+  out.has_enabled = read_mask(from, out.problem.m(), out.enabled);
+  place = {"start mask"};
+  out.has_start = read_mask(from, out.problem.m(), out.start);
+  place = {"ordering"};
+  read_ordering(from, out.problem, out.ordering);
+  place = {"end"};
+  if (from.left() > 0) throw Error(MLCP_ERROR_FORMAT, "%zu bytes are left", from.left());
+}
+
 }  // namespace
 
 void read_payload(const Memory& memory, std::span<const std::uint8_t> payload, Snapshot& out) {
   ByteReader from(payload);
-  Scratch scratch(memory);
-  read_settings(from, out.settings);
-  read_bodies(memory, from, scratch, out.problem);
-  read_rows(memory, from, scratch, out.problem);
-  out.has_enabled = read_mask(from, out.problem.m(), out.enabled);
-  out.has_start = read_mask(from, out.problem.m(), out.start);
-  read_ordering(from, out.problem, out.ordering);
-  if (from.left() > 0) throw Error(MLCP_ERROR_FORMAT, "%zu bytes are left", from.left());
+  Place place;
+  try {
+    read_sections(memory, from, out, place);
+  } catch (const Error& e) {
+    char body[16] = "";
+    if (place.body >= 0) std::snprintf(body, sizeof body, " %d", place.body);
+    throw Error(MLCP_ERROR_FORMAT, "the snapshot is not legal: %s%s, at byte %zu unpacked: %s", place.section, body,
+                from.offset(), e.text);
+  }
 }
 
 }  // namespace mlcp

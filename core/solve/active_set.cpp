@@ -50,14 +50,13 @@ void slacks(const Island& island, const KktPattern& pattern, const KktValues& va
   }
 }
 
-void slack_tolerances(const Island& island, const KktPattern& pattern, const KktValues& values, const double* x, double relative,
-                      double* tolerance) {
+void slack_tolerances(const Island& island, const KktPattern& pattern, const KktValues& values, double relative, ActiveSet& set) {
   for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
     const std::int32_t p = pattern.row_position[o];
-    double scale = std::abs(values.diagonal[p] * x[p]) + values.size[p];
+    double scale = std::abs(values.diagonal[p] * set.x[p]) + values.size[p];
     for (std::int32_t t = pattern.row_pointers[o]; t < pattern.row_pointers[o + 1]; ++t)
-      scale += std::abs(values.row[t] * x[pattern.row_columns[t]]);
-    tolerance[o] = relative * scale;
+      scale += std::abs(values.row[t] * set.x[pattern.row_columns[t]]);
+    set.tolerance[o] = set.deferred[o] || values.lo[o] == values.hi[o] ? infinity : relative * scale;
   }
 }
 

@@ -12,7 +12,7 @@ struct ActiveSet {
 
   Array<std::uint8_t> state;
   Array<double> x, w;
-  Array<double> tolerance;        ///< |w| up to this is zero
+  Array<double> tolerance;        ///< |w| up to this is zero; infinite for rows that are not to enter
   Array<std::uint8_t> deferred;   ///< violated, but no step can mend it: 1
   Array<std::uint8_t> wanted;     ///< by position: rows that a factorization is to take in
 
@@ -23,6 +23,10 @@ struct ActiveSet {
   static State resting(double lo, double hi);
   /// Starts from the caller's mask (NULL: only rows that may push both ways are active).
   void start(const Problem& problem, const KktPattern& pattern, const KktValues& values, const Mask* enabled, const Mask* mask);
+  void defer(std::int32_t o) {
+    deferred[o] = 1;
+    tolerance[o] = infinity;
+  }
   /// x of a row that rests: −γ at its bound, 0 for out and disabled.
   static double resting_x(State state, double lo, double hi);
 };
@@ -31,8 +35,8 @@ struct ActiveSet {
 /// cost: entries of J and Σ.
 void slacks(const Island& island, const KktPattern& pattern, const KktValues& values, const double* x, double* w);
 
-/// tolerance = relative · (|J|(|v| + |v₀|) + |Σ||γ| + |r|), the scale of the error that is reported.
-void slack_tolerances(const Island& island, const KktPattern& pattern, const KktValues& values, const double* x, double relative,
-                      double* tolerance);
+/// tolerance = relative · (|J|(|v| + |v₀|) + |Σ||γ| + |r|), the scale of the error that is reported; infinite for rows that are deferred
+/// or whose bounds are equal.
+void slack_tolerances(const Island& island, const KktPattern& pattern, const KktValues& values, double relative, ActiveSet& set);
 
 }  // namespace mlcp

@@ -8,6 +8,8 @@ namespace {
 
 /// A point whose backward error is above this after refinement stands on a factor that has drifted.
 constexpr double drifted = 1e-13;
+/// Worse than this, even on a fresh factor: active rows depend on each other and their pivots are rounding. Larger ones are given up then.
+constexpr double unsolved = 1e-10;
 
 }  // namespace
 
@@ -73,7 +75,8 @@ void Basis::deactivate_all(const Island& island, std::span<const std::int32_t> r
   for (const std::int32_t o : rows)
     for (std::int32_t j = position(o); j >= 0; j = symbolic.parent[j]) toggles += symbolic.pointers[j + 1] - symbolic.pointers[j];
   if (toggles <= factor_work_[island.first_row]) {
-    for (const std::int32_t o : rows) deactivate(island, o, side(o), counts);
+    for (const std::int32_t o : rows)  // a refactorization on the way may have put some at rest
+      if (set.state[o] == ActiveSet::active) deactivate(island, o, side(o), counts);
     return;
   }
   for (const std::int32_t o : rows) rest(o, side(o));
@@ -84,13 +87,18 @@ void Basis::solve_point(const Island& island, Counts& counts) {
   const auto refined = [&] {
     return refinement.solve(island, *pattern, values, factor, values.b.data(), values.size.data(), set.x.data(), counts.refinements, counts.work);
   };
-  if (!(refined() <= drifted) && toggled_[island.first_row] > 0) {
+  double error = refined();
+  if (!(error <= drifted) && toggled_[island.first_row] > 0) {
     ++counts.drifts;
     refactorize(island, lost_pivot, counts);
-    refined();
+    error = refined();
+  }
+  for (double drop = 100 * lost_pivot; !(error <= unsolved) && drop <= dependent_pivot; drop *= 100) {
+    refactorize(island, drop, counts);
+    error = refined();
   }
   slacks(island, *pattern, values, set.x.data(), set.w.data());
-  slack_tolerances(island, *pattern, values, set.x.data(), zero(), set.tolerance.data());
+  slack_tolerances(island, *pattern, values, zero(), set);
   counts.work += 2 * (pattern->row_pointers[island.last_row] - pattern->row_pointers[island.first_row]);
 }
 

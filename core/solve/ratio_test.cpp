@@ -31,8 +31,8 @@ Step ratio_test(const Island& island, const Basis& basis, const Direction& direc
   }
   if (rule == MLCP_PIVOT_PRINTED && !direction.dependent) {
     for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
-      if (o == entering || k.lo[o] == k.hi[o] || set.deferred[o]) continue;
       const double w = set.w[o], slope = direction.dw[o], zero = set.tolerance[o];
+      if (o == entering || zero == infinity) continue;
       if (std::abs(slope) <= negligible * per_unit * k.root_a[o]) continue;
       if (set.state[o] == ActiveSet::at_lower && w >= -zero && slope < 0) offer(-w / slope, o, ActiveSet::active);
       if (set.state[o] == ActiveSet::at_upper && w <= zero && slope > 0) offer(-w / slope, o, ActiveSet::active);

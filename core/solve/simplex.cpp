@@ -27,27 +27,17 @@ void Simplex::prepare(const Problem& problem, const Mask* enabled, const Setting
   entered_.assign(basis_.pattern->rows(), 0);
 }
 
-/// How far row o is from its complementarity condition, as the w that must go: > 0 means that the impulse has to grow.
-double Simplex::violation(std::int32_t o) const {
-  const ActiveSet& set = basis_.set;
-  if (basis_.values.lo[o] == basis_.values.hi[o] || set.deferred[o]) return 0;
-  const double w = set.w[o];
-  switch (set.state[o]) {
-    case ActiveSet::at_lower: return w < -set.tolerance[o] ? -w : 0;
-    case ActiveSet::at_upper: return w > set.tolerance[o] ? -w : 0;
-    case ActiveSet::out: return std::abs(w) > set.tolerance[o] ? -w : 0;
-    default: return 0;
-  }
-}
-
-/// The paper's "un qualsiasi k": the row with the largest |w|/√a, least index on ties.
+/// The paper's "un qualsiasi k": the row with the largest |w|/√a whose impulse can still move against it, least index on ties.
 std::int32_t Simplex::entering_row(const Island& island) const {
+  const ActiveSet& set = basis_.set;
   std::int32_t best = -1;
   double most = 0;
   const auto row = [&](std::int32_t o) { return basis_.pattern->node[basis_.position(o)]; };
   for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
-    const double w = violation(o);
-    if (w == 0) continue;
+    const double w = set.w[o];
+    if (std::abs(w) <= set.tolerance[o]) continue;
+    const std::uint8_t state = set.state[o];
+    if (state == ActiveSet::active || state == ActiveSet::disabled || state == (w > 0 ? ActiveSet::at_lower : ActiveSet::at_upper)) continue;
     const double size = basis_.values.a[o] > 0 ? std::abs(w) / basis_.values.root_a[o] : infinity;
     if (best < 0 || size > most || (size == most && row(o) < row(best))) {
       best = o;
@@ -167,7 +157,11 @@ mlcp_outcome Simplex::treat(const Island& island, std::int32_t entering, Limits&
                         direction_.dependent, step.length * direction_.sign, basis_.set.w[entering], direction_.schur});
     if (step.blocking < 0) {
       if (certifying_ && certify(island, entering)) return MLCP_INFEASIBLE;
-      basis_.set.deferred[entering] = 1;
+      if (direction_.schur > lost_pivot) {  // no proof: then it is no dependence either, but a large mass ratio or a narrow wedge
+        dependent_ = std::max(lost_pivot, 0.5 * direction_.schur);
+        continue;
+      }
+      basis_.set.defer(entering);
       return MLCP_SOLVED;
     }
     if (step.length > 0) advance(island, step.length);
@@ -231,6 +225,7 @@ void Simplex::tighten(const Island& island) {
   dependent_ *= 0.1;
   std::fill(basis_.set.deferred.begin() + island.first_row, basis_.set.deferred.begin() + island.last_row, 0);
   std::fill(entered_.begin() + island.first_row, entered_.begin() + island.last_row, 0);
+  slack_tolerances(island, *basis_.pattern, basis_.values, basis_.zero(), basis_.set);
 }
 
 /// Risolvi_LCP.

@@ -43,7 +43,6 @@ class Simplex {
   bool drop_beyond_bounds(const Island& island, Counts& counts);
   bool certify(const Island& island, std::int32_t entering);
   void tighten(const Island& island);
-  double violation(std::int32_t o) const;
 
   Basis& basis_;
   Direction direction_;

@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "problem_folder.h"
+#include "velocities.h"
 
 namespace cli {
 
@@ -11,14 +12,17 @@ void run_convert(const std::string& from, const std::string& to) {
   const std::size_t left_out = static_cast<std::size_t>(file.file_rows) - file.file_row.size();
   if (left_out > 0) std::cerr << "mlcp: " << left_out << " rows of friction were left out\n";
   if (to.ends_with(".mlcp")) {
-    const mlcp_status status =
-        mlcp_snapshot_save(to.c_str(), file.problem.get(), file.solver.get(), file.enabled.get(), file.start.get());
-    if (status != MLCP_OK) throw std::runtime_error(to + ": " + mlcp_status_text(status));
+    char message[512];
+    handles::check(mlcp_snapshot_save(to.c_str(), file.problem.get(), file.solver.get(), file.enabled.get(), file.start.get(),
+                                      message, sizeof message),
+                   message);
   } else {
     if (file.enabled && mlcp_mask_count(file.enabled.get(), MLCP_ROW_DISABLED) > 0) {
       throw std::runtime_error("a folder cannot hold disabled rows");
     }
     write_folder(to, file.problem);
+    const std::int32_t prescribed = velocities_of(file.problem.get()).prescribed_bodies;
+    if (prescribed > 0) std::cerr << "mlcp: " << prescribed << " prescribed bodies went into c and d; v is without them\n";
   }
 }
 

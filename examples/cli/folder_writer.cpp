@@ -7,6 +7,7 @@
 #include "matrix_market.h"
 #include "problem_folder.h"
 #include "text_file.h"
+#include "velocities.h"
 
 namespace cli {
 namespace {
@@ -35,7 +36,8 @@ Rows sort_rows(const mlcp_problem* problem) {
     for (std::size_t i = 0; i < size; ++i) {
       const bool bilateral = lo[i] == -INFINITY && hi[i] == INFINITY;
       if (!bilateral && !(lo[i] == 0 && hi[i] == INFINITY)) {
-        throw std::runtime_error("a folder cannot hold row " + std::to_string(i) + ": neither bilateral nor unilateral");
+        throw std::runtime_error("a folder cannot hold row " + std::to_string(i) +
+                                 " (counted from 0): neither bilateral nor unilateral");
       }
       if (bilateral != want_bilateral) continue;
       rows.bilateral += bilateral;
@@ -81,12 +83,35 @@ Matrix matrix_of(const mlcp_problem* problem, View view_of) {
   return entries_of(view, view.rows);
 }
 
-void write_global(const fs::path& folder, const mlcp_problem* problem, const Rows& rows) {
-  std::vector<double> k(static_cast<std::size_t>(mlcp_problem_velocity_count(problem)));
+std::vector<double> dynamic_momentum(const mlcp_problem* problem, const Velocities& velocities) {
+  std::vector<double> k(velocities.given.size());
   check(mlcp_problem_get_momentum(problem, static_cast<std::int32_t>(k.size()), k.data()));
-  write_text(folder / "M.mtx", format_matrix(lower_triangle(matrix_of(problem, mlcp_problem_mass))));
-  write_text(folder / "k.mtx", format_vector(k));
-  const Matrix jacobian = matrix_of(problem, mlcp_problem_jacobian);
+  std::size_t kept = 0;
+  for (std::size_t j = 0; j < k.size(); ++j) {
+    if (velocities.new_index[j] >= 0) k[kept++] = k[j];
+  }
+  k.resize(kept);
+  return k;
+}
+
+/// The columns of given velocities leave the Jacobian for the right-hand side, −r := −r + J v.
+Matrix move_given(const Matrix& jacobian, const Velocities& velocities, Rows& rows) {
+  for (std::size_t e = 0; e < jacobian.value.size(); ++e) {
+    const auto j = static_cast<std::size_t>(jacobian.column[e]);
+    if (velocities.new_index[j] >= 0) continue;
+    const auto row = static_cast<std::size_t>(rows.new_index[static_cast<std::size_t>(jacobian.row[e])]);
+    rows.shift[row] += jacobian.value[e] * velocities.given[j];
+  }
+  return select_columns(jacobian, velocities.new_index, velocities.dynamic);
+}
+
+void write_global(const fs::path& folder, const mlcp_problem* problem, Rows& rows) {
+  const Velocities velocities = velocities_of(problem);
+  const Matrix mass =
+      select_rows_and_columns(matrix_of(problem, mlcp_problem_mass), velocities.new_index, velocities.dynamic);
+  write_text(folder / "M.mtx", format_matrix(lower_triangle(mass)));
+  write_text(folder / "k.mtx", format_vector(dynamic_momentum(problem, velocities)));
+  const Matrix jacobian = move_given(matrix_of(problem, mlcp_problem_jacobian), velocities, rows);
   const auto count = static_cast<std::int32_t>(rows.old_index.size());
   std::vector<std::int32_t> c_index(rows.new_index), d_index(rows.new_index);
   for (std::int32_t& i : c_index) i = i < rows.bilateral ? i : -1;
@@ -111,7 +136,7 @@ void write_reduced(const fs::path& folder, const mlcp_problem* problem, const Ro
 }  // namespace
 
 void write_folder(const fs::path& folder, const handles::Problem& problem) {
-  const Rows rows = sort_rows(problem.get());
+  Rows rows = sort_rows(problem.get());
   const bool reduced = mlcp_problem_velocity_count(problem.get()) == 0;
   if (!reduced && rows.compliant) throw std::runtime_error("a folder cannot hold compliance beside velocities");
   if (fs::exists(folder) && !fs::is_empty(folder)) throw std::runtime_error(folder.string() + ": is there and not empty");

@@ -90,6 +90,7 @@ Json describe(const std::string& path, const ProblemFile& file) {
   json["form"] = found.velocities == 0 ? "reduced" : "global";
   json["velocities"] = found.velocities;
   json["bodies"] = found.bodies;
+  json["prescribed_bodies"] = found.prescribed_bodies;
   json["rows"] = {{"in_the_file", file.file_rows}, {"left_out", file.file_rows - found.rows}, {"enabled", report.enabled_rows},
                   {"bilateral", found.bilateral},  {"unilateral", found.unilateral},          {"boxed", found.boxed},
                   {"fixed", found.fixed},          {"soft", found.soft_rows}};

@@ -14,6 +14,8 @@ namespace {
 
 using cli::Exit;
 
+constexpr const char* counting = "Rows, velocities and bodies count from 0; lines and entries of Matrix Market files from 1.";
+
 void add_output(CLI::App& command, std::string& output) {
   command.add_option("--output", output, "text or json")->check(CLI::IsMember({"text", "json"}))->capture_default_str();
 }
@@ -29,7 +31,7 @@ void add_solve(CLI::App& app, cli::SolveOptions& options) {
   solve.add_option("--refactorize", options.refactorize, "when-needed or always [when-needed]");
   solve.add_flag("--trace", options.trace, "Print every pivot");
   add_output(solve, options.output);
-  solve.footer("A snapshot brings its own settings; what is given here goes first.");
+  solve.footer(std::string("A snapshot brings its own settings; what is given here goes first.\n") + counting);
 }
 
 /// Message on standard error; where JSON was asked for, also an object on standard output.
@@ -56,11 +58,15 @@ int main(int argc, char** argv) {
   CLI::App& info = *app.add_subcommand("info", "Sizes, islands, rank, scaling, what is unusual about a problem");
   info.add_option("PROBLEM", info_path, "Folder of Matrix Market files, or snapshot")->required();
   add_output(info, info_output);
+  info.footer(counting);
 
   std::string from, to;
   CLI::App& convert = *app.add_subcommand("convert", "Between folder and snapshot");
   convert.add_option("IN", from, "Folder or snapshot")->required();
   convert.add_option("OUT", to, "Snapshot if it ends in .mlcp, else a new folder")->required();
+  convert.footer(std::string("A folder has no prescribed bodies: their velocities go into c and d, and v is without them.\n"
+                             "Refused: disabled rows, rows neither bilateral nor unilateral, compliance beside velocities.\n") +
+                 counting);
 
   try {
     app.parse(argc, argv);

@@ -46,7 +46,7 @@ Matrix select(const Matrix& matrix, std::span<const std::int32_t> new_row, std::
   result.source = matrix.source;
   result.symmetric = matrix.symmetric;
   for (std::size_t e = 0; e < matrix.value.size(); ++e) {
-    const std::int32_t i = new_row[static_cast<std::size_t>(matrix.row[e])];
+    const std::int32_t i = new_row.empty() ? matrix.row[e] : new_row[static_cast<std::size_t>(matrix.row[e])];
     const std::int32_t j = new_column.empty() ? matrix.column[e] : new_column[static_cast<std::size_t>(matrix.column[e])];
     if (i >= 0 && j >= 0) result.add(i, j, matrix.value[e]);
   }
@@ -85,6 +85,13 @@ Matrix select_rows(const Matrix& matrix, std::span<const std::int32_t> new_index
   Matrix result = select(matrix, new_index, {});
   result.rows = count;
   result.columns = matrix.columns;
+  return result;
+}
+
+Matrix select_columns(const Matrix& matrix, std::span<const std::int32_t> new_index, std::int32_t count) {
+  Matrix result = select(matrix, {}, new_index);
+  result.rows = matrix.rows;
+  result.columns = count;
   return result;
 }
 

@@ -36,8 +36,9 @@ Compressed compress_columns(const Matrix& matrix);
 /// The same matrix with both triangles as entries.
 Matrix expand(Matrix matrix);
 
-/// The rows (and columns) i with new_index[i] ≥ 0, moved there. `count`: how many those are.
+/// The rows (or columns, or both) i with new_index[i] ≥ 0, moved there. `count`: how many those are.
 Matrix select_rows(const Matrix& matrix, std::span<const std::int32_t> new_index, std::int32_t count);
+Matrix select_columns(const Matrix& matrix, std::span<const std::int32_t> new_index, std::int32_t count);
 Matrix select_rows_and_columns(const Matrix& matrix, std::span<const std::int32_t> new_index, std::int32_t count);
 
 }  // namespace cli

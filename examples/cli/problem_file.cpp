@@ -11,8 +11,9 @@ ProblemFile read_snapshot(const std::filesystem::path& path) {
   mlcp_problem* problem = nullptr;
   mlcp_solver* solver = nullptr;
   mlcp_mask *enabled = nullptr, *start = nullptr;
-  const mlcp_status status = mlcp_snapshot_load(path.c_str(), nullptr, &problem, &solver, &enabled, &start);
-  if (status != MLCP_OK) throw std::runtime_error(path.string() + ": " + mlcp_status_text(status));
+  char message[512];
+  handles::check(mlcp_snapshot_load(path.c_str(), nullptr, &problem, &solver, &enabled, &start, message, sizeof message),
+                 message);
   ProblemFile file;
   file.problem.reset(problem);
   file.solver.reset(solver);

@@ -169,6 +169,13 @@ Matrix stack(Matrix upper, const Matrix& lower) {
   return upper;
 }
 
+/// The library's own words on what stands in a file. It counts from 0, and only the rows that were chosen.
+[[noreturn]] void refuse(const Matrix& matrix, const ProblemFile& file) {
+  const bool whole = file.file_row.size() == static_cast<std::size_t>(file.file_rows);
+  throw std::runtime_error(matrix.source + ": " + mlcp_problem_error(file.problem.get()) + " (counted from 0" +
+                           (whole ? ")" : ", without the rows of friction)"));
+}
+
 void add_body(const fs::path& folder, const Matrix& mass, ProblemFile& file) {
   const std::vector<double> k = vector_or_zero(folder, "k", mass.rows);
   if (mass.rows == 0) return;
@@ -176,7 +183,7 @@ void add_body(const fs::path& folder, const Matrix& mass, ProblemFile& file) {
   const mlcp_triangle triangle = mass.symmetric ? MLCP_LOWER : MLCP_FULL;
   if (mlcp_problem_body_add_sparse(file.problem.get(), mass.rows, columns.pointers.data(), columns.indices.data(),
                                    columns.values.data(), triangle, nullptr) != MLCP_OK) {
-    throw std::runtime_error(mass.source + ": " + mlcp_problem_error(file.problem.get()));
+    refuse(mass, file);
   }
   check(mlcp_problem_set_momentum(file.problem.get(), 0, mass.rows, k.data()), file.problem);
 }
@@ -224,7 +231,7 @@ void read_reduced(const fs::path& folder, const Meta& meta, ProblemFile& file) {
   const Compressed columns = compress_columns(select_rows_and_columns(a, new_index, count));
   if (mlcp_problem_set_compliance_matrix(file.problem.get(), count, columns.pointers.data(), columns.indices.data(),
                                          columns.values.data(), a.symmetric ? MLCP_LOWER : MLCP_FULL) != MLCP_OK) {
-    throw std::runtime_error(a.source + ": " + mlcp_problem_error(file.problem.get()));
+    refuse(a, file);
   }
 }
 

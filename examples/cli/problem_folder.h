@@ -15,8 +15,9 @@ namespace cli {
 ProblemFile read_folder(const std::filesystem::path& folder);
 
 /// Writes a problem as a folder, which must not be there yet or be empty. Bilateral rows come first, for that is where the form
-/// has them; apart from that the order stays. Throws std::runtime_error for what the form cannot hold: rows that are neither
-/// bilateral nor unilateral (0 ≤ γ), compliance beside velocities.
+/// has them; apart from that the order stays. Prescribed bodies go: their velocities move into c and d. Throws
+/// std::runtime_error for what the form cannot hold: rows that are neither bilateral nor unilateral (0 ≤ γ), compliance beside
+/// velocities.
 void write_folder(const std::filesystem::path& folder, const handles::Problem& problem);
 
 }  // namespace cli

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "matrix_view.h"
+#include "velocities.h"
 
 namespace cli {
 namespace {
@@ -19,8 +20,10 @@ std::vector<SparseRow> scaled_rows(const mlcp_problem* problem) {
   each_entry(view_of(problem, mlcp_problem_mass), n, [&](std::int32_t j, std::int32_t i, double value) {
     if (i == j && value > 0) mass[static_cast<std::size_t>(j)] = value;
   });
+  const Velocities velocities = velocities_of(problem);
   std::vector<SparseRow> rows(static_cast<std::size_t>(m));
   each_entry(view_of(problem, mlcp_problem_jacobian), m, [&](std::int32_t i, std::int32_t j, double value) {
+    if (velocities.new_index[static_cast<std::size_t>(j)] < 0) return;
     const double scaled = value / std::sqrt(mass[static_cast<std::size_t>(j)]);
     rows[static_cast<std::size_t>(i)].push_back({j, scaled});
     a[static_cast<std::size_t>(i)] += scaled * scaled;

@@ -15,9 +15,9 @@ struct Range {
   void take(double size);
 };
 
-/// What can be said of a problem by looking, without solving it.
+/// What can be said of a problem by looking, without solving it. But for the numbers of entries, given velocities are left out.
 struct Survey {
-  std::int32_t velocities = 0, bodies = 0, rows = 0;
+  std::int32_t velocities = 0, bodies = 0, prescribed_bodies = 0, rows = 0;
   std::int32_t bilateral = 0, unilateral = 0, boxed = 0, fixed = 0;  // fixed: lo = hi
   std::int64_t mass_entries = 0, jacobian_entries = 0, compliance_entries = 0, explicit_zeros = 0;
   Range mass;       // Mⱼⱼ

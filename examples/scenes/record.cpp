@@ -12,7 +12,9 @@ int record(Scene& scene, int steps, const std::filesystem::path& folder, double 
     std::string name = std::to_string(step);
     name.insert(0, 3 - std::min<std::size_t>(3, name.size()), '0');
     const std::string path = (folder / (name + ".mlcp")).string();
-    check(mlcp_snapshot_save(path.c_str(), scene.problem(), scene.solver(), nullptr, scene.start()));
+    char message[512];
+    check(mlcp_snapshot_save(path.c_str(), scene.problem(), scene.solver(), nullptr, scene.start(), message, sizeof message),
+          message);
     if (scene.finish().outcome != MLCP_SOLVED) return step + 1;
   }
   return steps;

@@ -147,7 +147,7 @@ TEST(Allocation, SnapshotFailsCleanlyAtEveryCall) {
   for (int64_t n = 0; status == MLCP_ERROR_OUT_OF_MEMORY && n < 200; ++n) {
     allocator.fail_at(n);
     size_t size = 0;
-    status = mlcp_snapshot_write(problem.get(), nullptr, nullptr, nullptr, 0, nullptr, &size);
+    status = mlcp_snapshot_write(problem.get(), nullptr, nullptr, nullptr, 0, nullptr, &size, nullptr, 0);
     EXPECT_EQ(allocator.blocks(), blocks);
   }
   EXPECT_EQ(status, MLCP_OK);
@@ -156,7 +156,7 @@ TEST(Allocation, SnapshotFailsCleanlyAtEveryCall) {
     allocator.fail_at(n);
     mlcp_problem* copy = nullptr;
     mlcp_solver* solver = nullptr;
-    status = mlcp_snapshot_read(bytes.data(), bytes.size(), allocator.hooks(), &copy, &solver, nullptr, nullptr);
+    status = mlcp_snapshot_read(bytes.data(), bytes.size(), allocator.hooks(), &copy, &solver, nullptr, nullptr, nullptr, 0);
     if (status != MLCP_OK) {
       EXPECT_TRUE(!copy && !solver);
     }

@@ -115,7 +115,7 @@ TEST(BodyChurn, OffsetsMassesAndColumnsFollow) {
     // a replay knows the same ids
     const Bytes bytes = snapshot(churn.p);
     mlcp_problem* raw = nullptr;
-    ASSERT_EQ(mlcp_snapshot_read(bytes.data(), bytes.size(), nullptr, &raw, nullptr, nullptr, nullptr), MLCP_OK);
+    ASSERT_EQ(mlcp_snapshot_read(bytes.data(), bytes.size(), nullptr, &raw, nullptr, nullptr, nullptr, nullptr, 0), MLCP_OK);
     churn.problem.reset(raw);
     churn.p = raw;
     EXPECT_EQ(snapshot(raw), bytes);

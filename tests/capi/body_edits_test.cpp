@@ -150,7 +150,7 @@ TEST_F(BodyEdits, SnapshotForgetsNothingAboutRemovedBodies) {
   ProblemHandle rich = make_rich_problem();
   mlcp_problem* copy = nullptr;
   const Bytes bytes = snapshot(rich.get());
-  ASSERT_EQ(mlcp_snapshot_read(bytes.data(), bytes.size(), nullptr, &copy, nullptr, nullptr, nullptr), MLCP_OK);
+  ASSERT_EQ(mlcp_snapshot_read(bytes.data(), bytes.size(), nullptr, &copy, nullptr, nullptr, nullptr, nullptr, 0), MLCP_OK);
   ProblemHandle owner(copy);
   EXPECT_EQ(add_body(copy, 2), 1);
   EXPECT_EQ(add_body(rich.get(), 2), 1);
@@ -170,6 +170,48 @@ TEST_F(BodyEdits, PrescribedAndDynamic) {
   EXPECT_NE(snapshot(p), before);
   ASSERT_EQ(mlcp_problem_body_set_dynamic(p, id), MLCP_OK);
   EXPECT_EQ(snapshot(p), before);
+}
+
+TEST_F(BodyEdits, StateOfABody) {
+  const int32_t still = add_body(p, 3), moved = add_body(p, 2);
+  const double given[] = {1, -2};
+  ASSERT_EQ(mlcp_problem_body_set_prescribed(p, moved, given, 2), MLCP_OK);
+  int32_t prescribed = -1;
+  double v[3] = {9, 9, 9};
+  ASSERT_EQ(mlcp_problem_body_state(p, still, &prescribed, 3, v), MLCP_OK);
+  EXPECT_EQ(prescribed, 0);
+  EXPECT_EQ(std::vector<double>(v, v + 3), (std::vector<double>{0, 0, 0}));
+  ASSERT_EQ(mlcp_problem_body_state(p, moved, &prescribed, 2, v), MLCP_OK);
+  EXPECT_EQ(prescribed, 1);
+  EXPECT_EQ(std::vector<double>(v, v + 3), (std::vector<double>{1, -2, 0}));
+  prescribed = 9;
+  EXPECT_EQ(mlcp_problem_body_state(p, moved, &prescribed, -7, nullptr), MLCP_OK);
+  EXPECT_EQ(prescribed, 1);
+  EXPECT_EQ(mlcp_problem_body_state(p, moved, nullptr, 2, v), MLCP_OK);
+  EXPECT_EQ(mlcp_problem_body_state(p, moved, nullptr, 0, nullptr), MLCP_OK);
+  EXPECT_EQ(mlcp_problem_body_state(p, still, &prescribed, 2, v), MLCP_ERROR_RANGE);
+  EXPECT_EQ(prescribed, 1);
+  EXPECT_EQ(mlcp_problem_body_state(p, 2, &prescribed, 2, v), MLCP_ERROR_RANGE);
+  EXPECT_EQ(mlcp_problem_body_state(p, MLCP_WORLD, &prescribed, 2, v), MLCP_ERROR_RANGE);
+}
+
+TEST_F(BodyEdits, IdsOfBodies) {
+  int32_t count = -1;
+  EXPECT_EQ(mlcp_problem_bodies(p, 0, nullptr, &count), MLCP_OK);
+  EXPECT_EQ(count, 0);
+  for (int i = 0; i < 5; ++i) add_body(p, 1);
+  for (int32_t body : {0, 3}) ASSERT_EQ(mlcp_problem_body_remove(p, body), MLCP_OK);
+  EXPECT_EQ(mlcp_problem_bodies(p, 0, nullptr, &count), MLCP_OK);
+  EXPECT_EQ(count, 3);
+  int32_t ids[4] = {-7, -7, -7, -7};
+  count = -1;
+  EXPECT_EQ(mlcp_problem_bodies(p, 2, ids, &count), MLCP_ERROR_RANGE);
+  EXPECT_EQ(count, 3);
+  EXPECT_EQ(ids[0], -7);
+  ASSERT_EQ(mlcp_problem_bodies(p, 4, ids, &count), MLCP_OK);
+  EXPECT_EQ(std::vector<int32_t>(ids, ids + 4), (std::vector<int32_t>{1, 2, 4, -7}));
+  EXPECT_EQ(mlcp_problem_bodies(p, -1, nullptr, &count), MLCP_ERROR_RANGE);
+  EXPECT_EQ(mlcp_problem_bodies(p, 4, ids, nullptr), MLCP_ERROR_NULL);
 }
 
 TEST_F(BodyEdits, Momentum) {
@@ -219,6 +261,9 @@ TEST_F(BodyEdits, NullHandles) {
   EXPECT_EQ(mlcp_problem_body_remove(nullptr, 0), MLCP_ERROR_NULL);
   EXPECT_EQ(mlcp_problem_body_range(nullptr, 0, nullptr, nullptr), MLCP_ERROR_NULL);
   EXPECT_EQ(mlcp_problem_get_momentum(nullptr, 0, nullptr), MLCP_ERROR_NULL);
+  EXPECT_EQ(mlcp_problem_body_state(nullptr, 0, nullptr, 0, nullptr), MLCP_ERROR_NULL);
+  int32_t count = 0;
+  EXPECT_EQ(mlcp_problem_bodies(nullptr, 0, nullptr, &count), MLCP_ERROR_NULL);
 }
 
 TEST_F(BodyEdits, ReserveRefused) {

@@ -2,6 +2,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdio>
 
 #include "support.h"
@@ -11,7 +12,7 @@ using namespace capi;
 namespace {
 
 mlcp_status read(const Bytes& bytes, mlcp_problem** problem) {
-  return mlcp_snapshot_read(bytes.data(), bytes.size(), nullptr, problem, nullptr, nullptr, nullptr);
+  return mlcp_snapshot_read(bytes.data(), bytes.size(), nullptr, problem, nullptr, nullptr, nullptr, nullptr, 0);
 }
 
 /// A folder of its own, removed with all in it.
@@ -109,7 +110,7 @@ TEST(Snapshot, MasksAndSettings) {
   mlcp_problem* p = nullptr;
   mlcp_solver* s = nullptr;
   mlcp_mask *e = nullptr, *b = nullptr;
-  ASSERT_EQ(mlcp_snapshot_read(bytes.data(), bytes.size(), nullptr, &p, &s, &e, &b), MLCP_OK);
+  ASSERT_EQ(mlcp_snapshot_read(bytes.data(), bytes.size(), nullptr, &p, &s, &e, &b, nullptr, 0), MLCP_OK);
   ProblemHandle problem_owner(p);
   SolverHandle solver_owner(s);
   MaskHandle enabled_owner(e), start_owner(b);
@@ -129,7 +130,7 @@ TEST(Snapshot, MasksThatWereNotSavedComeBackNull) {
   const Bytes bytes = snapshot(problem.get());
   MaskHandle other = make_mask(1);
   mlcp_mask *enabled = other.get(), *start = other.get();
-  ASSERT_EQ(mlcp_snapshot_read(bytes.data(), bytes.size(), nullptr, nullptr, nullptr, &enabled, &start), MLCP_OK);
+  ASSERT_EQ(mlcp_snapshot_read(bytes.data(), bytes.size(), nullptr, nullptr, nullptr, &enabled, &start, nullptr, 0), MLCP_OK);
   EXPECT_EQ(enabled, nullptr);
   EXPECT_EQ(start, nullptr);
 }
@@ -138,8 +139,8 @@ TEST(Snapshot, MaskOfAnotherSize) {
   ProblemHandle problem = make_rich_problem();
   MaskHandle mask = make_mask(3);
   size_t size = 0;
-  EXPECT_EQ(mlcp_snapshot_write(problem.get(), nullptr, mask.get(), nullptr, 0, nullptr, &size), MLCP_ERROR_RANGE);
-  EXPECT_EQ(mlcp_snapshot_write(problem.get(), nullptr, nullptr, mask.get(), 0, nullptr, &size), MLCP_ERROR_RANGE);
+  EXPECT_EQ(mlcp_snapshot_write(problem.get(), nullptr, mask.get(), nullptr, 0, nullptr, &size, nullptr, 0), MLCP_ERROR_RANGE);
+  EXPECT_EQ(mlcp_snapshot_write(problem.get(), nullptr, nullptr, mask.get(), 0, nullptr, &size, nullptr, 0), MLCP_ERROR_RANGE);
 }
 
 TEST(Snapshot, CapacityTooSmall) {
@@ -147,7 +148,8 @@ TEST(Snapshot, CapacityTooSmall) {
   const size_t needed = snapshot(problem.get()).size();
   Bytes buffer(needed, 0x77);
   size_t size = 0;
-  EXPECT_EQ(mlcp_snapshot_write(problem.get(), nullptr, nullptr, nullptr, needed - 1, buffer.data(), &size), MLCP_ERROR_RANGE);
+  EXPECT_EQ(mlcp_snapshot_write(problem.get(), nullptr, nullptr, nullptr, needed - 1, buffer.data(), &size, nullptr, 0),
+            MLCP_ERROR_RANGE);
   EXPECT_EQ(size, needed);
   EXPECT_EQ(buffer, Bytes(needed, 0x77));
 }
@@ -156,7 +158,8 @@ TEST(Snapshot, TruncatedAtEveryByte) {
   const Bytes bytes = snapshot(make_rich_problem().get());
   for (size_t size = 0; size < bytes.size(); ++size) {
     mlcp_problem* problem = nullptr;
-    EXPECT_EQ(mlcp_snapshot_read(bytes.data(), size, nullptr, &problem, nullptr, nullptr, nullptr), MLCP_ERROR_FORMAT) << size;
+    EXPECT_EQ(mlcp_snapshot_read(bytes.data(), size, nullptr, &problem, nullptr, nullptr, nullptr, nullptr, 0), MLCP_ERROR_FORMAT)
+        << size;
     EXPECT_EQ(problem, nullptr);
   }
 }
@@ -183,16 +186,16 @@ TEST(Snapshot, SaveAndLoad) {
   Folder folder;
   const std::string path = folder.file("a.mlcp");
   ProblemHandle problem = make_rich_problem();
-  ASSERT_EQ(mlcp_snapshot_save(path.c_str(), problem.get(), nullptr, nullptr, nullptr), MLCP_OK);
+  ASSERT_EQ(mlcp_snapshot_save(path.c_str(), problem.get(), nullptr, nullptr, nullptr, nullptr, 0), MLCP_OK);
   EXPECT_EQ(contents(path), snapshot(problem.get()));
   EXPECT_EQ(folder.files().size(), 1u);
   mlcp_problem* raw = nullptr;
-  ASSERT_EQ(mlcp_snapshot_load(path.c_str(), nullptr, &raw, nullptr, nullptr, nullptr), MLCP_OK);
+  ASSERT_EQ(mlcp_snapshot_load(path.c_str(), nullptr, &raw, nullptr, nullptr, nullptr, nullptr, 0), MLCP_OK);
   ProblemHandle copy(raw);
   EXPECT_EQ(snapshot(copy.get()), snapshot(problem.get()));
   // over the old one
   ASSERT_EQ(mlcp_problem_rows_clear(copy.get()), MLCP_OK);
-  ASSERT_EQ(mlcp_snapshot_save(path.c_str(), copy.get(), nullptr, nullptr, nullptr), MLCP_OK);
+  ASSERT_EQ(mlcp_snapshot_save(path.c_str(), copy.get(), nullptr, nullptr, nullptr, nullptr, 0), MLCP_OK);
   EXPECT_EQ(contents(path), snapshot(copy.get()));
   EXPECT_EQ(folder.files().size(), 1u);
 }
@@ -202,17 +205,20 @@ TEST(Snapshot, SaveThatFailsLeavesNothingBehind) {
   ProblemHandle problem = make_rich_problem();
   const std::string target = folder.file("taken");
   ASSERT_EQ(mkdir(target.c_str(), 0777), 0);
-  EXPECT_EQ(mlcp_snapshot_save(target.c_str(), problem.get(), nullptr, nullptr, nullptr), MLCP_ERROR_IO);
+  EXPECT_EQ(mlcp_snapshot_save(target.c_str(), problem.get(), nullptr, nullptr, nullptr, nullptr, 0), MLCP_ERROR_IO);
   EXPECT_EQ(folder.files().size(), 1u);
   rmdir(target.c_str());
-  EXPECT_EQ(mlcp_snapshot_save(folder.file("no/such/folder").c_str(), problem.get(), nullptr, nullptr, nullptr), MLCP_ERROR_IO);
-  EXPECT_EQ(mlcp_snapshot_save("", problem.get(), nullptr, nullptr, nullptr), MLCP_ERROR_IO);
+  EXPECT_EQ(mlcp_snapshot_save(folder.file("no/such/folder").c_str(), problem.get(), nullptr, nullptr, nullptr, nullptr, 0),
+            MLCP_ERROR_IO);
+  EXPECT_EQ(mlcp_snapshot_save("", problem.get(), nullptr, nullptr, nullptr, nullptr, 0), MLCP_ERROR_IO);
 }
 
 TEST(Snapshot, LoadOfWhatIsNoSnapshot) {
   Folder folder;
   mlcp_problem* problem = nullptr;
-  const auto load = [&](const char* path) { return mlcp_snapshot_load(path, nullptr, &problem, nullptr, nullptr, nullptr); };
+  const auto load = [&](const char* path) {
+    return mlcp_snapshot_load(path, nullptr, &problem, nullptr, nullptr, nullptr, nullptr, 0);
+  };
   EXPECT_EQ(load(folder.file("missing").c_str()), MLCP_ERROR_IO);
   EXPECT_EQ(load(folder.path()), MLCP_ERROR_IO);
   EXPECT_EQ(load("/dev/zero"), MLCP_ERROR_IO);
@@ -226,15 +232,85 @@ TEST(Snapshot, LoadOfWhatIsNoSnapshot) {
   EXPECT_EQ(problem, nullptr);
 }
 
+/// The text of a failed call on a buffer that is large enough.
+template <class Call>
+std::string message_of(mlcp_status status, Call call) {
+  char message[512];
+  std::memset(message, 'x', sizeof message);
+  EXPECT_EQ(call(message, sizeof message), status);
+  EXPECT_NE(std::memchr(message, 0, sizeof message), nullptr);
+  return message;
+}
+
+TEST(Snapshot, MessagesOfFiles) {
+  Folder folder;
+  ProblemHandle problem = make_rich_problem();
+  mlcp_problem* copy = nullptr;
+  const auto load = [&](const std::string& path, mlcp_status status) {
+    return message_of(status, [&](char* message, size_t size) {
+      return mlcp_snapshot_load(path.c_str(), nullptr, &copy, nullptr, nullptr, nullptr, message, size);
+    });
+  };
+  const auto save = [&](const std::string& path, mlcp_status status) {
+    return message_of(status, [&](char* message, size_t size) {
+      return mlcp_snapshot_save(path.c_str(), problem.get(), nullptr, nullptr, nullptr, message, size);
+    });
+  };
+  const std::string path = folder.file("a.mlcp"), beyond = folder.file("none/a.mlcp");
+  EXPECT_EQ(load(path, MLCP_ERROR_IO), "cannot open \"" + path + "\": " + std::strerror(ENOENT));
+  EXPECT_EQ(save(beyond, MLCP_ERROR_IO), "cannot create a file beside \"" + beyond + "\": " + std::strerror(ENOENT));
+  EXPECT_EQ(save(path, MLCP_OK), "");
+  EXPECT_EQ(load(path, MLCP_OK), "");
+  mlcp_problem_destroy(copy);
+  ASSERT_EQ(truncate(path.c_str(), 60), 0);
+  EXPECT_NE(load(path, MLCP_ERROR_FORMAT).find("\"" + path + "\": the snapshot has 20 bytes"), std::string::npos);
+  ASSERT_EQ(truncate(path.c_str(), 20), 0);
+  EXPECT_EQ(load(path, MLCP_ERROR_FORMAT), "\"" + path + "\": this is not a snapshot");
+}
+
+TEST(Snapshot, MessagesNameArguments) {
+  ProblemHandle problem = make_rich_problem();
+  MaskHandle mask = make_mask(3);
+  unsigned char bytes[8] = {};
+  size_t needed = 0;
+  const auto write = [&](mlcp_status status, const mlcp_problem* p, const mlcp_mask* enabled, size_t capacity, size_t* size) {
+    return message_of(status, [&](char* message, size_t room) {
+      return mlcp_snapshot_write(p, nullptr, enabled, nullptr, capacity, bytes, size, message, room);
+    });
+  };
+  EXPECT_EQ(write(MLCP_ERROR_NULL, nullptr, nullptr, 0, &needed), "problem is NULL");
+  EXPECT_EQ(write(MLCP_ERROR_NULL, problem.get(), nullptr, 0, nullptr), "size is NULL");
+  EXPECT_EQ(write(MLCP_ERROR_RANGE, problem.get(), mask.get(), 0, &needed), "rows of enabled = 3, but 4 are needed");
+  const std::string small = write(MLCP_ERROR_RANGE, problem.get(), nullptr, 8, &needed);
+  EXPECT_EQ(small, "capacity = 8, but " + std::to_string(needed) + " are needed");
+  EXPECT_EQ(message_of(MLCP_ERROR_NULL, [&](char* message, size_t size) {
+    return mlcp_snapshot_read(nullptr, 10, nullptr, nullptr, nullptr, nullptr, nullptr, message, size);
+  }), "bytes is NULL");
+}
+
+TEST(Snapshot, MessagesAreCutAndTerminated) {
+  const Bytes bytes(50, 'x');
+  char message[9];
+  for (size_t size = 0; size < sizeof message; ++size) {
+    std::memset(message, '#', sizeof message);
+    EXPECT_EQ(mlcp_snapshot_read(bytes.data(), bytes.size(), nullptr, nullptr, nullptr, nullptr, nullptr, message, size),
+              MLCP_ERROR_FORMAT);
+    EXPECT_EQ(message[size], '#');
+    if (size > 0) {
+      EXPECT_EQ(std::string(message), std::string("this is not a snapshot").substr(0, size - 1));
+    }
+  }
+}
+
 TEST(Snapshot, NullArguments) {
   ProblemHandle problem = make_rich_problem();
   size_t size = 0;
   mlcp_problem* out = nullptr;
-  EXPECT_EQ(mlcp_snapshot_write(nullptr, nullptr, nullptr, nullptr, 0, nullptr, &size), MLCP_ERROR_NULL);
-  EXPECT_EQ(mlcp_snapshot_write(problem.get(), nullptr, nullptr, nullptr, 0, nullptr, nullptr), MLCP_ERROR_NULL);
-  EXPECT_EQ(mlcp_snapshot_save(nullptr, problem.get(), nullptr, nullptr, nullptr), MLCP_ERROR_NULL);
-  EXPECT_EQ(mlcp_snapshot_save("x", nullptr, nullptr, nullptr, nullptr), MLCP_ERROR_NULL);
-  EXPECT_EQ(mlcp_snapshot_load(nullptr, nullptr, &out, nullptr, nullptr, nullptr), MLCP_ERROR_NULL);
-  EXPECT_EQ(mlcp_snapshot_read(nullptr, 10, nullptr, &out, nullptr, nullptr, nullptr), MLCP_ERROR_NULL);
-  EXPECT_EQ(mlcp_snapshot_read(nullptr, 0, nullptr, &out, nullptr, nullptr, nullptr), MLCP_ERROR_FORMAT);
+  EXPECT_EQ(mlcp_snapshot_write(nullptr, nullptr, nullptr, nullptr, 0, nullptr, &size, nullptr, 0), MLCP_ERROR_NULL);
+  EXPECT_EQ(mlcp_snapshot_write(problem.get(), nullptr, nullptr, nullptr, 0, nullptr, nullptr, nullptr, 0), MLCP_ERROR_NULL);
+  EXPECT_EQ(mlcp_snapshot_save(nullptr, problem.get(), nullptr, nullptr, nullptr, nullptr, 0), MLCP_ERROR_NULL);
+  EXPECT_EQ(mlcp_snapshot_save("x", nullptr, nullptr, nullptr, nullptr, nullptr, 0), MLCP_ERROR_NULL);
+  EXPECT_EQ(mlcp_snapshot_load(nullptr, nullptr, &out, nullptr, nullptr, nullptr, nullptr, 0), MLCP_ERROR_NULL);
+  EXPECT_EQ(mlcp_snapshot_read(nullptr, 10, nullptr, &out, nullptr, nullptr, nullptr, nullptr, 0), MLCP_ERROR_NULL);
+  EXPECT_EQ(mlcp_snapshot_read(nullptr, 0, nullptr, &out, nullptr, nullptr, nullptr, nullptr, 0), MLCP_ERROR_FORMAT);
 }

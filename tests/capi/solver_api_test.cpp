@@ -174,6 +174,36 @@ TEST_F(SolverApi, DisabledRowCostsNothing) {
   EXPECT_EQ(mlcp_mask_states(mask)[0], MLCP_ROW_DISABLED);
 }
 
+TEST_F(SolverApi, MassThatIsNotPositiveDefiniteIsNamed) {
+  const int32_t pointers[] = {0, 1, 2, 3}, rows[] = {0, 1, 2};
+  const double mass[] = {1, 0, 1};
+  int32_t body = -1;
+  ASSERT_EQ(mlcp_problem_body_add_sparse(p, 3, pointers, rows, mass, MLCP_FULL, &body), MLCP_OK);
+  ASSERT_EQ(mlcp_solve(s, p, nullptr, nullptr, &report), MLCP_OK);  // nothing touches it
+  EXPECT_EQ(report.outcome, MLCP_NOT_POSITIVE_DEFINITE);
+  EXPECT_EQ(report.worst_body, body);
+  EXPECT_EQ(report.worst_velocity, 2 + 1);
+  add_row(p, {2, 3, 4}, {1, 1, 1});
+  ASSERT_EQ(mlcp_solve(s, p, nullptr, nullptr, &report), MLCP_OK);
+  EXPECT_EQ(report.outcome, MLCP_NOT_POSITIVE_DEFINITE);
+  EXPECT_EQ(report.worst_body, body);
+  EXPECT_EQ(report.worst_velocity, 2 + 1);
+}
+
+TEST_F(SolverApi, NoRedundantRowsAreLookedForAfterAnInterruption) {
+  add_row(p, {0}, {1}, 7);  // as the row with key 5
+  MaskHandle start = make_mask(3);
+  ASSERT_EQ(mlcp_solve(s, p, nullptr, start.get(), &report), MLCP_OK);
+  EXPECT_EQ(report.redundant_rows, 1);
+  mlcp_settings settings;
+  mlcp_settings_init(&settings, sizeof settings);
+  settings.progress = [](void*, const mlcp_progress*) { return 1; };
+  ASSERT_EQ(mlcp_solver_set_settings(s, &settings), MLCP_OK);
+  ASSERT_EQ(mlcp_solve(s, p, nullptr, start.get(), &report), MLCP_OK);
+  EXPECT_EQ(report.outcome, MLCP_INTERRUPTED);
+  EXPECT_EQ(report.redundant_rows, 0);
+}
+
 TEST_F(SolverApi, LentMaskIsAStart) {
   ASSERT_EQ(mlcp_solve(s, p, nullptr, nullptr, &report), MLCP_OK);
   const std::vector<double> cold = impulses(s);
@@ -305,7 +335,7 @@ TEST_F(SolverApi, SnapshotReplaysToTheSameBits) {
   const Bytes bytes = snapshot(p, s);
   mlcp_problem* copy = nullptr;
   mlcp_solver* twin = nullptr;
-  ASSERT_EQ(mlcp_snapshot_read(bytes.data(), bytes.size(), nullptr, &copy, &twin, nullptr, nullptr), MLCP_OK);
+  ASSERT_EQ(mlcp_snapshot_read(bytes.data(), bytes.size(), nullptr, &copy, &twin, nullptr, nullptr, nullptr, 0), MLCP_OK);
   ProblemHandle problem_owner(copy);
   SolverHandle solver_owner(twin);
   mlcp_report replay = new_report();

@@ -24,9 +24,9 @@ SolverHandle make_solver(const mlcp_settings* settings) {
 
 Bytes snapshot(const mlcp_problem* problem, const mlcp_solver* solver, const mlcp_mask* enabled, const mlcp_mask* start) {
   size_t size = 0;
-  EXPECT_EQ(mlcp_snapshot_write(problem, solver, enabled, start, 0, nullptr, &size), MLCP_OK);
+  EXPECT_EQ(mlcp_snapshot_write(problem, solver, enabled, start, 0, nullptr, &size, nullptr, 0), MLCP_OK);
   Bytes bytes(size);
-  EXPECT_EQ(mlcp_snapshot_write(problem, solver, enabled, start, bytes.size(), bytes.data(), &size), MLCP_OK);
+  EXPECT_EQ(mlcp_snapshot_write(problem, solver, enabled, start, bytes.size(), bytes.data(), &size, nullptr, 0), MLCP_OK);
   return bytes;
 }
 

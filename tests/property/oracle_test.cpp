@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "support/failure.h"
 #include "support/random_problem.h"
-#include "support/solution.h"
 
 namespace support {
 namespace {
@@ -37,10 +37,11 @@ void agree(std::uint64_t seed, const mlcp::Problem& problem, const mlcp::Mask* e
   const auto rule = static_cast<mlcp_pivot_rule>(random.integer(0, 1));
   const auto refactorize = static_cast<mlcp_refactorize>(random.chance(0.2));
   const mlcp::Mask* from = random.chance(0.5) ? &start : nullptr;
-  const std::string wrong = disagreement(problem, enabled, from, settings(rule, refactorize), tally);
+  const mlcp::Settings how = settings(rule, refactorize);
+  const std::string wrong = disagreement(problem, enabled, from, how, tally);
   if (!wrong.empty())
-    ADD_FAILURE() << "seed " << seed << ", pivot rule " << rule << ", refactorize " << refactorize << ": " << wrong << '\n'
-                  << text(problem, enabled, from);
+    ADD_FAILURE() << "pivot rule " << rule << ", refactorize " << refactorize << ": " << wrong << '\n'
+                  << evidence("oracle", seed, problem, how, enabled, from);
 }
 
 void agree_on(const Shape& shape, int count, std::uint64_t first_seed, int least_solved, int least_infeasible) {
@@ -61,6 +62,12 @@ TEST(Oracle, TiesFromIntegers) {
   Shape shape;
   shape.integers = true;
   agree_on(shape, 4000, 20000, 2000, 250);
+}
+
+TEST(Oracle, BodiesAtRest) {
+  Shape shape;
+  shape.integers = shape.at_rest = true;
+  agree_on(shape, 4000, 140000, 2000, 250);
 }
 
 TEST(Oracle, MoreRowsThanVelocities) {

@@ -54,8 +54,10 @@ Vector widen(std::span<const double> x) {
   return y;
 }
 
-DenseErrors errors_of(const Dense& d, const Vector& v, const Vector& gamma) {
+DenseErrors errors_of(const Dense& d, const Vector& v, const Vector& gamma, Real negligible) {
   DenseErrors e;
+  e.velocity = Vector::Zero(d.n());
+  e.row = Vector::Zero(d.m());
   for (int j = 0; j < d.n(); ++j) {
     if (!d.dynamic[j]) continue;
     Real residual = -d.k[j], size = std::abs(d.k[j]);
@@ -67,7 +69,8 @@ DenseErrors errors_of(const Dense& d, const Vector& v, const Vector& gamma) {
       residual -= d.J(i, j) * gamma[i];
       size += std::abs(d.J(i, j) * gamma[i]);
     }
-    const Real error = size > 0 ? std::abs(residual) / size : std::abs(residual);
+    if (std::abs(residual) <= negligible) residual = 0;
+    const Real error = e.velocity[j] = size > 0 ? std::abs(residual) / size : std::abs(residual);
     if (e.worst_velocity < 0 || error > e.momentum) e.worst_velocity = j;
     e.momentum = std::max(e.momentum, error);
   }
@@ -84,8 +87,9 @@ DenseErrors errors_of(const Dense& d, const Vector& v, const Vector& gamma) {
       w += d.S(i, s) * gamma[s];
       size += std::abs(d.S(i, s) * gamma[s]);
     }
-    const Real residual = std::abs(median(w, a[i] * (gamma[i] - d.lo[i]), a[i] * (gamma[i] - d.hi[i])));
-    const Real error = size > 0 ? residual / size : residual;
+    Real residual = std::abs(median(w, a[i] * (gamma[i] - d.lo[i]), a[i] * (gamma[i] - d.hi[i])));
+    if (residual <= negligible) residual = 0;
+    const Real error = e.row[i] = size > 0 ? residual / size : residual;
     if (e.worst_row < 0 || error > e.constraints) e.worst_row = i;
     e.constraints = std::max(e.constraints, error);
   }
@@ -107,7 +111,7 @@ std::string certificate_fault(const Dense& d, std::span<const std::int32_t> rows
   for (int j = 0; j < d.n(); ++j) {
     if (!d.dynamic[j]) continue;
     const Vector terms = d.J.col(j).cwiseProduct(full);
-    if (std::abs(terms.sum()) > zero * terms.cwiseAbs().sum()) return "J'y is not 0 at velocity " + std::to_string(j);
+    if (std::abs(terms.sum()) > zero * terms.cwiseAbs().sum() + 1e-300L) return "J'y is not 0 at velocity " + std::to_string(j);
   }
   for (int i = 0; i < d.m(); ++i) {
     const Vector terms = d.S.col(i).cwiseProduct(full);

@@ -28,12 +28,14 @@ Dense dense(const mlcp::Problem& problem, const mlcp::Mask* enabled = nullptr);
 
 Vector widen(std::span<const double> x);
 
-/// The two errors of a point, with their worst components.
+/// The two errors of a point, with their components and the worst of them.
 struct DenseErrors {
   Real momentum = 0, constraints = 0;
   int worst_velocity = -1, worst_row = -1;
+  Vector velocity, row;
 };
-DenseErrors errors_of(const Dense& d, const Vector& v, const Vector& gamma);
+/// negligible: residuals up to this count as 0, for denormal data.
+DenseErrors errors_of(const Dense& d, const Vector& v, const Vector& gamma, Real negligible = 0);
 
 /// "" if y on the rows proves infeasibility as Farkas has it, else what is wrong. zero: relative size that counts as nothing.
 std::string certificate_fault(const Dense& d, std::span<const std::int32_t> rows, std::span<const double> y, Real zero = 1e-12L);

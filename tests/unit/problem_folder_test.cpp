@@ -5,6 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "cli/matrix_view.h"
+#include "cli/rank.h"
+#include "cli/survey.h"
 #include "cli/text_file.h"
 #include "scenes/scenes.h"
 
@@ -128,7 +131,8 @@ TEST_F(ProblemFolder, errors_name_the_file) {
   write_vector("d.mtx", "1\n1\n1\n");
   write_coordinates("M.mtx", "general", "2 2 3\n1 1 2\n1 2 1\n2 2 3\n");
   EXPECT_NE(error().find("M.mtx: "), std::string::npos);
-  EXPECT_NE(error().find("symmetric"), std::string::npos);
+  EXPECT_NE(error().find("symmetric: entry (0, 1)"), std::string::npos) << error();
+  EXPECT_TRUE(error().ends_with("(counted from 0)")) << error();
 }
 
 TEST_F(ProblemFolder, a_written_problem_reads_back_the_same) {
@@ -151,6 +155,75 @@ TEST_F(ProblemFolder, a_written_problem_reads_back_the_same) {
   }
   EXPECT_EQ(mlcp_problem_entry_count(file.problem.get()), mlcp_problem_entry_count(before.get()));
   EXPECT_THROW(write_folder(folder_, before), std::runtime_error);
+}
+
+TEST_F(ProblemFolder, errors_in_a_part_of_the_matrix_say_so) {
+  write("meta.json", R"({"form": "reduced", "contacts": 1, "dim": 2, "friction": true})");
+  write_vector("mu.mtx", "0.5\n");
+  write_coordinates("A.mtx", "general", "3 3 4\n1 1 1\n2 2 1\n3 3 1\n3 1 0.5\n");
+  EXPECT_TRUE(error().ends_with("(counted from 0, without the rows of friction)")) << error();
+}
+
+/// A given velocity, 2, between two that are to be found.
+handles::Problem half_prescribed() {
+  handles::Problem problem = handles::make_problem();
+  const double masses[] = {3, 4, 5}, given = 2, k[] = {7, 8, 9};
+  handles::check(mlcp_problem_bodies_add(problem.get(), 3, 1, masses, 0, nullptr), problem);
+  handles::check(mlcp_problem_body_set_prescribed(problem.get(), 1, &given, 1), problem);
+  handles::check(mlcp_problem_set_momentum(problem.get(), 0, 3, k), problem);
+  const std::int32_t columns[] = {2, 1, 0};
+  const double first[] = {1, 5, 0.5}, second[] = {-1, -1};
+  handles::check(mlcp_problem_row_add(problem.get(), 3, columns, first, 1, 0, infinity, 0, 0, nullptr), problem);
+  handles::check(mlcp_problem_row_add(problem.get(), 2, columns, second, 0.5, -infinity, infinity, 0, 0, nullptr), problem);
+  return problem;
+}
+
+TEST_F(ProblemFolder, prescribed_bodies_go_into_the_right_hand_side) {
+  fs::remove(folder_);
+  write_folder(folder_, half_prescribed());
+  const ProblemFile file = read_folder(folder_);
+  ASSERT_EQ(mlcp_problem_velocity_count(file.problem.get()), 2);
+  double k[2];
+  handles::check(mlcp_problem_get_momentum(file.problem.get(), 2, k));
+  EXPECT_EQ(k[0], 7);
+  EXPECT_EQ(k[1], 9);
+  const RowData rows(file.problem);  // the bilateral one first
+  EXPECT_EQ(rows.r, (std::vector<double>{0.5 + 2, 1 - 5 * 2}));
+  EXPECT_EQ(rows.lo, (std::vector<double>{-infinity, 0}));
+  const mlcp_matrix_view mass = view_of(file.problem.get(), mlcp_problem_mass);
+  const mlcp_matrix_view jacobian = view_of(file.problem.get(), mlcp_problem_jacobian);
+  EXPECT_EQ(std::vector<double>(mass.values, mass.values + mass.entries), (std::vector<double>{3, 5}));
+  EXPECT_EQ(std::vector<double>(jacobian.values, jacobian.values + jacobian.entries), (std::vector<double>{-1, 1, 0.5}));
+  EXPECT_EQ(std::vector<std::int32_t>(jacobian.indices, jacobian.indices + 3), (std::vector<std::int32_t>{1, 1, 0}));
+}
+
+TEST_F(ProblemFolder, nothing_but_prescribed_bodies) {
+  handles::Problem problem = half_prescribed();
+  const double still = 0;
+  for (const std::int32_t body : {0, 2}) {
+    handles::check(mlcp_problem_body_set_prescribed(problem.get(), body, &still, 1), problem);
+  }
+  fs::remove(folder_);
+  write_folder(folder_, problem);
+  const ProblemFile file = read_folder(folder_);
+  EXPECT_EQ(mlcp_problem_velocity_count(file.problem.get()), 0);
+  EXPECT_EQ(RowData(file.problem).r, (std::vector<double>{2.5, -9}));
+}
+
+TEST_F(ProblemFolder, survey_leaves_given_velocities_out) {
+  handles::Problem problem = half_prescribed();
+  const std::int32_t column = 1;
+  const double value = 1e9;
+  handles::check(mlcp_problem_row_add(problem.get(), 1, &column, &value, 0, 0, infinity, 0, 0, nullptr), problem);
+  const Survey found = survey(problem.get());
+  EXPECT_EQ(found.prescribed_bodies, 1);
+  EXPECT_EQ(found.bodies, 3);
+  EXPECT_EQ(found.velocities_alone, 0);
+  EXPECT_EQ(found.zero_rows, (std::vector<std::int32_t>{2}));
+  EXPECT_EQ(found.row.largest, std::sqrt(1.25));
+  EXPECT_EQ(found.mass.largest, 5);
+  const std::vector<std::int32_t> island(3, 0);
+  EXPECT_EQ(independent_rows(problem.get(), island, 1), 2);
 }
 
 TEST_F(ProblemFolder, what_the_form_cannot_hold_is_refused) {

@@ -195,7 +195,7 @@ TEST(Scenes, a_recorded_step_replays_to_the_same_bits) {
     mlcp_problem* problem = nullptr;
     mlcp_solver* solver = nullptr;
     mlcp_mask* start = nullptr;
-    check(mlcp_snapshot_load((folder / name).c_str(), nullptr, &problem, &solver, nullptr, &start));
+    check(mlcp_snapshot_load((folder / name).c_str(), nullptr, &problem, &solver, nullptr, &start, nullptr, 0));
     const Problem problem_owner(problem);
     const Solver solver_owner(solver);
     const Mask start_owner(start);

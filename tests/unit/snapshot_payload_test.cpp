@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <string>
 #include <vector>
 
 #include "assemble/bodies.h"
@@ -24,6 +25,18 @@ bool accepted(std::span<const std::uint8_t> payload) {
   } catch (const Error&) {
     return false;
   }
+}
+
+/// The text of the refusal, "" if there is none.
+std::string refusal(std::span<const std::uint8_t> payload) {
+  Snapshot snapshot{Memory()};
+  try {
+    read_payload(Memory(), payload, snapshot);
+  } catch (const Error& e) {
+    EXPECT_EQ(e.status, MLCP_ERROR_FORMAT);
+    return e.text;
+  }
+  return "";
 }
 
 struct SnapshotPayload : testing::Test {
@@ -67,6 +80,21 @@ TEST_F(SnapshotPayload, RoundTrip) {
   write_payload({snapshot.problem, snapshot.settings, snapshot.ordering.span(), &snapshot.enabled, &snapshot.start}, again);
   ASSERT_EQ(again.size(), payload.size());
   EXPECT_TRUE(std::equal(again.begin(), again.end(), payload.begin()));
+}
+
+TEST_F(SnapshotPayload, RefusalsNameSectionAndOffset) {
+  EXPECT_EQ(refusal(payload.span()), "");
+  const std::string last = std::to_string(payload.size() - 4 * (std::size_t(problem.n()) + problem.m()));
+  EXPECT_EQ(refusal(payload.span().first(payload.size() - 1)),
+            "the snapshot is not legal: ordering, at byte " + last + " unpacked: the snapshot ends too early");
+  const std::size_t settings = 4 * 4 + 4 * 8, kind = settings + 4 + 4;
+  payload[kind] = 9;
+  EXPECT_EQ(refusal(payload.span()), "the snapshot is not legal: body 0, at byte " + std::to_string(kind + 2) +
+                                         " unpacked: a mass is stored in way 9");
+  payload[0] = 99;
+  EXPECT_NE(refusal(payload.span()).find("settings, at byte " + std::to_string(settings) + " unpacked: settings.method = 99"),
+            std::string::npos)
+      << refusal(payload.span());
 }
 
 TEST_F(SnapshotPayload, TruncatedAtEveryByte) {

@@ -1,0 +1,12 @@
+// Compiled with -mavx2 (core/CMakeLists.txt); called on CPUs that have it.
+#include "factorize/kernels.h"
+
+#if defined(__x86_64__)
+#include "factorize/kernel_loops.h"
+
+namespace mlcp {
+
+const Kernels avx2_kernels{forward, backward, rank_one};
+
+}  // namespace mlcp
+#endif

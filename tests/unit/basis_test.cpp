@@ -1,0 +1,134 @@
+#include "solve/basis.h"
+
+#include <gtest/gtest.h>
+
+#include "support/random_problem.h"
+#include "support/solution.h"
+
+namespace support {
+namespace {
+
+using Set = mlcp::ActiveSet;
+
+/// A problem with its basis, started from the mask and factored.
+struct Based {
+  mlcp::Problem problem;
+  mlcp::Analysis analysis{mlcp::Memory()};
+  mlcp::Basis basis{mlcp::Memory()};
+  mlcp::Settings settings;
+  mlcp::Counts counts;
+
+  explicit Based(mlcp::Problem p, const mlcp::Mask* start = nullptr, mlcp::Settings s = mlcp::default_settings())
+      : problem(std::move(p)), settings(s) {
+    analysis.run(problem, nullptr, {});
+    basis.prepare(problem, analysis, settings);
+    basis.set.start(problem, analysis.pattern, basis.values, nullptr, start);
+    EXPECT_TRUE(basis.refactorize(island(), mlcp::lost_pivot, counts));
+  }
+  const mlcp::Island& island() const { return analysis.symbolic.islands[0]; }
+  int ordinal(int row) const { return analysis.pattern.row_ordinal[analysis.pattern.position[problem.n() + row]]; }
+  Set::State state(int row) const { return static_cast<Set::State>(basis.set.state[ordinal(row)]); }
+  /// A row is in the factor if and only if it is active.
+  void expect_in_step() const {
+    for (int o = 0; o < analysis.pattern.rows(); ++o)
+      EXPECT_EQ(basis.factor.in(basis.position(o)), basis.set.state[o] == Set::active) << o;
+  }
+};
+
+/// Three bodies in a line, unilateral rows between them and to the ground, all pressed together.
+mlcp::Problem column() {
+  mlcp::Problem p = empty_problem();
+  for (int b = 0; b < 3; ++b) add_body(p, 1, b + 1);
+  set_k(p, Eigen::Vector3d(-1, -2, -3));
+  add_row(p, {{0, 1}});
+  add_row(p, {{1, 1}, {0, -1}});
+  add_row(p, {{2, 1}, {1, -1}});
+  return p;
+}
+
+TEST(Basis, ActivateAndDeactivateKeepTheFactorInStep) {
+  Based b(column());
+  b.expect_in_step();
+  for (const int row : {1, 0, 2}) EXPECT_TRUE(b.basis.activate(b.island(), b.ordinal(row), b.counts));
+  b.expect_in_step();
+  b.basis.deactivate(b.island(), b.ordinal(0), Set::at_lower, b.counts);
+  EXPECT_EQ(b.state(0), Set::at_lower);
+  b.expect_in_step();
+  EXPECT_EQ(b.counts.toggles, 4);
+  EXPECT_EQ(b.counts.factorizations, 1);
+}
+
+TEST(Basis, AlwaysRefactorizeTogglesNothing) {
+  Based b(column(), nullptr, settings(MLCP_PIVOT_DUAL, MLCP_REFACTORIZE_ALWAYS));
+  for (const int row : {1, 0, 2}) b.basis.activate(b.island(), b.ordinal(row), b.counts);
+  b.basis.deactivate(b.island(), b.ordinal(1), Set::at_lower, b.counts);
+  EXPECT_EQ(b.counts.toggles, 0);
+  EXPECT_EQ(b.counts.factorizations, 5);
+  b.expect_in_step();
+}
+
+TEST(Basis, PointOfTheActiveSet) {
+  const mlcp::Mask start = mask_of({MLCP_ROW_ACTIVE, MLCP_ROW_ACTIVE, MLCP_ROW_ACTIVE});
+  Based b(column(), &start);
+  b.basis.solve_point(b.island(), b.counts);
+  EXPECT_DOUBLE_EQ(b.basis.gamma(b.ordinal(0)), 6);
+  EXPECT_DOUBLE_EQ(b.basis.gamma(b.ordinal(1)), 5);
+  EXPECT_DOUBLE_EQ(b.basis.gamma(b.ordinal(2)), 3);
+  for (int o = 0; o < 3; ++o) EXPECT_NEAR(b.basis.set.w[o], 0, 1e-15);
+}
+
+TEST(Basis, RestIsExactlyAtTheBound) {
+  mlcp::Problem p = column();
+  add_row(p, {{0, 1}}, 0, {0.1, 0.3});
+  Based b(std::move(p));
+  b.basis.rest(b.ordinal(3), Set::at_upper);
+  EXPECT_EQ(b.basis.gamma(b.ordinal(3)), 0.3);
+  b.basis.rest(b.ordinal(3), Set::at_lower);
+  EXPECT_EQ(b.basis.gamma(b.ordinal(3)), 0.1);
+}
+
+TEST(Basis, RowsBeyondTheirBoundsRestOnTheSideThatTheyLeft) {
+  mlcp::Problem p = empty_problem();
+  for (int b = 0; b < 2; ++b) add_body(p, 1, 1);
+  set_k(p, Eigen::Vector2d(-5, 5));
+  add_row(p, {{0, 1}, {1, 0}}, 0, {-1, 1});
+  add_row(p, {{0, 0}, {1, 1}}, 0, {-1, 1});
+  const mlcp::Mask start = mask_of({MLCP_ROW_ACTIVE, MLCP_ROW_ACTIVE});
+  Based b(std::move(p), &start);
+  b.basis.solve_point(b.island(), b.counts);
+  const std::vector<std::int32_t> both{b.ordinal(0), b.ordinal(1)};
+  b.basis.deactivate_all(b.island(), both, b.counts);
+  EXPECT_EQ(b.state(0), Set::at_upper) << "γ was 5";
+  EXPECT_EQ(b.state(1), Set::at_lower) << "γ was −5";
+  b.expect_in_step();
+}
+
+TEST(Basis, DependentRowRestsWhenFactored) {
+  mlcp::Problem p = column();
+  add_row(p, {{0, 1}});
+  const mlcp::Mask start = mask_of({MLCP_ROW_ACTIVE, MLCP_ROW_ACTIVE, MLCP_ROW_ACTIVE, MLCP_ROW_ACTIVE});
+  Based b(std::move(p), &start);
+  EXPECT_EQ((b.state(0) == Set::active) + (b.state(3) == Set::active), 1);
+  b.expect_in_step();
+}
+
+TEST(Basis, DependentBilateralRowIsOut) {
+  mlcp::Problem p = empty_problem();
+  add_body(p, 1, 1);
+  add_row(p, {{0, 1}}, 1, bilateral);
+  add_row(p, {{0, 2}}, 2, bilateral);
+  Based b(std::move(p));
+  EXPECT_EQ((b.state(0) == Set::out) + (b.state(1) == Set::out), 1);
+  b.expect_in_step();
+}
+
+TEST(Basis, ZeroFollowsTheToleranceWithinRounding) {
+  mlcp::Settings s = mlcp::default_settings();
+  for (const auto& [tolerance, zero] : {std::pair{1e-3, 1e-13}, {1e-9, 1e-13}, {1e-10, 1e-14}, {1e-15, 2e-15}}) {
+    s.tolerance = tolerance;
+    EXPECT_DOUBLE_EQ(Based(column(), nullptr, s).basis.zero(), zero);
+  }
+}
+
+}  // namespace
+}  // namespace support

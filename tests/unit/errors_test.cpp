@@ -1,0 +1,150 @@
+#include "measure/errors.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "support/random_problem.h"
+#include "support/solution.h"
+
+namespace support {
+namespace {
+
+mlcp::Errors measure(const mlcp::Problem& problem, const std::vector<double>& v, const std::vector<double>& gamma,
+                     const mlcp::Mask* enabled = nullptr) {
+  return mlcp::Measure(mlcp::Memory()).run(problem, enabled, v, gamma);
+}
+
+/// A body on the ground: m = 2, k = −2, v ≥ 0.
+mlcp::Problem resting_body(Bounds bounds = unilateral, double r = 0) {
+  mlcp::Problem p = empty_problem();
+  add_body(p, 1, 2);
+  set_k(p, Eigen::VectorXd::Constant(1, -2));
+  add_row(p, {{0, 1}}, r, bounds);
+  return p;
+}
+
+TEST(Errors, NaturalResidualIsTheMedian) {
+  EXPECT_EQ(mlcp::natural_residual(3, 1, 0, 0, mlcp::infinity), 0) << "w > 0 at lo";
+  EXPECT_EQ(mlcp::natural_residual(-3, 1, 0, 0, mlcp::infinity), -3) << "penetrating, no impulse";
+  EXPECT_EQ(mlcp::natural_residual(0, 1, 7, 0, mlcp::infinity), 0) << "active";
+  EXPECT_EQ(mlcp::natural_residual(3, 2, 7, 0, mlcp::infinity), 3) << "pushing while open";
+  EXPECT_EQ(mlcp::natural_residual(3, 2, 0.5, 0, mlcp::infinity), 1) << "the impulse is the smaller fault";
+  EXPECT_EQ(mlcp::natural_residual(0, 2, -1, 0, mlcp::infinity), -2) << "pulling contact";
+  EXPECT_EQ(mlcp::natural_residual(-5, 1, 4, -4, 4), 0) << "motor at its limit";
+  EXPECT_EQ(mlcp::natural_residual(5, 1, 4, -4, 4), 5) << "motor at the wrong limit";
+  EXPECT_EQ(mlcp::natural_residual(1e9, 1, 3, 3, 3), 0) << "lo = hi";
+  EXPECT_EQ(mlcp::natural_residual(-0.5, 1, 9, -mlcp::infinity, mlcp::infinity), -0.5) << "joint that opens";
+}
+
+TEST(Errors, ExactSolutionHasNone) {
+  const mlcp::Errors e = measure(resting_body(), {0}, {2});
+  EXPECT_EQ(e.momentum, 0);
+  EXPECT_EQ(e.constraints, 0);
+  EXPECT_EQ(e.worst_row, 0);
+  EXPECT_EQ(e.worst_velocity, 0);
+}
+
+TEST(Errors, FallingThroughTheGround) {
+  const mlcp::Errors e = measure(resting_body(), {-1}, {0});
+  EXPECT_EQ(e.momentum, 0);
+  EXPECT_EQ(e.constraint_residual, 1);
+  EXPECT_DOUBLE_EQ(e.constraints, 0.5) << "over |v| + |v0| = 2";
+}
+
+TEST(Errors, RowsAndBodiesOfAnySizeWeighTheSame) {
+  for (const double length : {1e-8, 1.0, 1e8})
+    for (const double mass : {1e-6, 1.0, 1e6}) {
+      mlcp::Problem p = empty_problem();
+      add_body(p, 1, 2 * mass);
+      set_k(p, Eigen::VectorXd::Constant(1, -2 * mass));
+      add_row(p, {{0, length}}, 0);
+      EXPECT_NEAR(measure(p, {-1e-3}, {1.998 * mass / length}).constraints, 1e-3 / 1.001, 1e-12) << length << ' ' << mass;
+    }
+}
+
+TEST(Errors, ZeroRowThatHolds) {
+  mlcp::Problem p = empty_problem();
+  add_row(p, {}, -1);
+  EXPECT_EQ(measure(p, {}, {0}).constraints, 0);
+  EXPECT_EQ(measure(p, {}, {0.5}).constraints, 0.5) << "a = 1 where no row has any";
+}
+
+TEST(Errors, ZeroRowThatCannotHold) {
+  mlcp::Problem p = empty_problem();
+  add_row(p, {}, 1);
+  EXPECT_EQ(measure(p, {}, {0}).constraints, 1);
+  EXPECT_EQ(measure(p, {}, {1e100}).constraints, 1) << "no impulse mends it";
+}
+
+TEST(Errors, BoxedZeroRowIsRightAtItsFarBound) {
+  mlcp::Problem p = empty_problem();
+  add_row(p, {}, 1, {-2, 3});
+  EXPECT_EQ(measure(p, {}, {3}).constraints, 0);
+  EXPECT_GT(measure(p, {}, {-2}).constraints, 0.5);
+}
+
+TEST(Errors, DisabledRowsAndPrescribedVelocitiesDoNotCount) {
+  mlcp::Problem p = resting_body();
+  const mlcp::Mask off = mask_of({MLCP_ROW_DISABLED});
+  EXPECT_EQ(measure(p, {-1}, {0}, &off).constraints, 0);
+  EXPECT_EQ(measure(p, {-1}, {0}, &off).worst_row, -1);
+  prescribe(p, 0, {1});
+  EXPECT_EQ(measure(p, {1}, {0}).momentum, 0);
+  EXPECT_EQ(measure(p, {1}, {0}).worst_velocity, -1);
+}
+
+TEST(Errors, WhatIsNotFiniteIsAnInfiniteError) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double bad : {nan, mlcp::infinity, -mlcp::infinity}) {
+    EXPECT_EQ(measure(resting_body(), {bad}, {2}).momentum, mlcp::infinity);
+    EXPECT_EQ(measure(resting_body(), {bad}, {2}).constraints, mlcp::infinity);
+    EXPECT_EQ(measure(resting_body(), {0}, {bad}).momentum, mlcp::infinity);
+    EXPECT_EQ(measure(resting_body(), {0}, {bad}).constraints, mlcp::infinity);
+    mlcp::Problem p = empty_problem();
+    add_row(p, {}, 0);
+    EXPECT_EQ(measure(p, {}, {bad}).largest(), mlcp::infinity);
+  }
+}
+
+TEST(Errors, OverflowIsAnInfiniteError) {
+  mlcp::Problem p = empty_problem();
+  add_body(p, 1, 1e300);
+  add_row(p, {{0, 1e300}});
+  EXPECT_EQ(measure(p, {1e300}, {0}).momentum, mlcp::infinity);
+}
+
+TEST(Errors, EmptyProblemHasNone) {
+  const mlcp::Errors e = measure(empty_problem(), {}, {});
+  EXPECT_EQ(e.largest(), 0);
+  EXPECT_EQ(e.worst_row, -1);
+  EXPECT_EQ(e.worst_velocity, -1);
+}
+
+/// Random points of random problems against the definitions of the design, written out.
+TEST(Errors, EqualTheDefinitionsWrittenOut) {
+  for (int seed = 0; seed < 2000; ++seed) {
+    Random random(seed);
+    const bool reduced = random.chance(0.2);
+    const mlcp::Problem p = reduced ? random_reduced(random, 5, 3, random.chance(0.5))
+                                    : random_problem(random, {.integers = random.chance(0.3), .prescribed = 0.3});
+    const mlcp::Mask enabled = enabled_mask(random, p.m(), 0.2);
+    std::vector<double> v(p.n()), gamma(p.m());
+    for (int j = 0; j < p.n(); ++j) v[j] = p.prescribed(j) ? p.given_velocity[j] : random.uniform();
+    for (int i = 0; i < p.m(); ++i) gamma[i] = enabled.state[i] == MLCP_ROW_DISABLED || random.chance(0.3) ? 0 : random.uniform();
+    const mlcp::Errors e = measure(p, v, gamma, &enabled);
+    const DenseErrors d = errors_of(dense(p, &enabled), widen(v), widen(gamma));
+    const auto momentum = static_cast<double>(d.momentum), constraints = static_cast<double>(d.constraints);
+    ASSERT_NEAR(e.momentum, momentum, 1e-13 * momentum + 1e-16) << "seed " << seed;
+    ASSERT_NEAR(e.constraints, constraints, 1e-13 * constraints + 1e-16) << "seed " << seed;
+    ASSERT_EQ(e.worst_velocity < 0, d.worst_velocity < 0) << "seed " << seed;
+    ASSERT_EQ(e.worst_row < 0, d.worst_row < 0) << "seed " << seed;
+    const Real worst_velocity = e.worst_velocity < 0 ? 0 : d.velocity[e.worst_velocity];
+    const Real worst_row = e.worst_row < 0 ? 0 : d.row[e.worst_row];
+    ASSERT_NEAR(static_cast<double>(worst_velocity), momentum, 1e-15) << "seed " << seed;
+    ASSERT_NEAR(static_cast<double>(worst_row), constraints, 1e-15) << "seed " << seed;
+  }
+}
+
+}  // namespace
+}  // namespace support

@@ -1,0 +1,170 @@
+#include "factorize/factor.h"
+
+#include <gtest/gtest.h>
+
+#include "assemble/bodies.h"
+#include "support/random_problem.h"
+#include "support/stage.h"
+
+namespace support {
+namespace {
+
+std::vector<std::uint8_t> random_rows(Random& random, const Stage& stage, double share) {
+  std::vector<std::uint8_t> wanted(stage.pattern().size(), 0);
+  for (const int p : stage.row_positions()) wanted[p] = random.chance(share);
+  return wanted;
+}
+
+std::vector<double> random_vector(Random& random, int size) {
+  std::vector<double> b(size);
+  for (double& x : b) x = random.uniform();
+  return b;
+}
+
+/// Pivots as dense elimination has them, solves with a small residual, zeros on what is out.
+void expect_factor_of(Stage& stage, Random& random, double tolerance = 1e-12) {
+  const Matrix K = stage.loaded();
+  const Vector pivots = pivots_of(stage, K);
+  for (int p = 0; p < K.rows(); ++p)
+    ASSERT_NEAR(stage.factor.pivot(p), static_cast<double>(pivots[p]), tolerance * std::abs(static_cast<double>(pivots[p]))) << p;
+  const std::vector<double> b = random_vector(random, static_cast<int>(K.rows())), x = stage.solve(b);
+  ASSERT_LE(residual_of(stage, K, x, b), tolerance);
+  for (int p = 0; p < K.rows(); ++p) {
+    ASSERT_TRUE(stage.factor.in(p) || x[p] == 0);
+  }
+}
+
+Shape independent_rows() {
+  Shape shape;
+  shape.bodies_most = 8;
+  shape.rows_most = 14;
+  shape.dimension_most = 6;
+  shape.duplicate = 0;
+  return shape;
+}
+
+TEST(Factor, ActiveSubsetsEqualDenseElimination) {
+  for (int seed = 0; seed < 500; ++seed) {
+    Random random(seed);
+    const mlcp::Problem p = random_problem(random, independent_rows());
+    Stage stage(p);
+    ASSERT_EQ(stage.factorize(random_rows(random, stage, random.uniform(0, 1)), 1e-7), mlcp::FactorStatus::ok);
+    expect_factor_of(stage, random, 1e-7);  // pivots down to 1e-7 a
+    ASSERT_FALSE(HasFatalFailure()) << "seed " << seed;
+  }
+}
+
+TEST(Factor, ChainsEqualDenseElimination) {
+  for (const int links : {1, 2, 7, 40}) {
+    Random random(links);
+    Stage stage(random_chain(random, links, 3, 1));
+    ASSERT_EQ(stage.factorize(random_rows(random, stage, 1)), mlcp::FactorStatus::ok);
+    expect_factor_of(stage, random, 1e-9);
+    ASSERT_FALSE(HasFatalFailure()) << links;
+  }
+}
+
+TEST(Factor, WithoutRowsItIsTheMassMatrix) {
+  Random random(5);
+  Stage stage(random_chain(random, 4, 3, 1));
+  ASSERT_EQ(stage.factorize(random_rows(random, stage, 0)), mlcp::FactorStatus::ok);
+  for (const int p : stage.row_positions()) EXPECT_FALSE(stage.factor.in(p));
+  expect_factor_of(stage, random);
+}
+
+TEST(Factor, ZeroVelocityPivotIsReported) {
+  mlcp::Problem p = empty_problem();
+  const Eigen::Matrix2d singular = (Eigen::Matrix2d() << 1, 1, 1, 1).finished();
+  add_body(p, 1, 1);
+  add_sparse_body(p, singular);
+  add_row(p, {{0, 1}, {1, 1}});
+  Stage stage(p);
+  EXPECT_EQ(stage.factorize({0, 0, 0, 0}), mlcp::FactorStatus::not_positive_definite);
+  const int node = stage.pattern().node[stage.factor.failed_position()];
+  EXPECT_EQ(p.body_of[node], 1);
+}
+
+TEST(Factor, IndefiniteMassIsReported) {
+  mlcp::Problem p = empty_problem();
+  add_sparse_body(p, (Eigen::Matrix2d() << 1, 2, 2, 1).finished());
+  add_row(p, {{0, 1}});
+  Stage stage(p);
+  EXPECT_EQ(stage.factorize({0, 0, 0}), mlcp::FactorStatus::not_positive_definite);
+}
+
+TEST(Factor, DependentRowIsLeftOut) {
+  mlcp::Problem p = empty_problem();
+  Random random(3);
+  add_body(p, random_mass(random, 3, false));
+  add_row(p, {{0, 1}, {1, 2}});
+  add_row(p, {{0, 2}, {1, 4}});
+  add_row(p, {{0, 1}, {1, 2}, {2, 1e-3}});
+  Stage stage(p);
+  ASSERT_EQ(stage.factorize({1, 1, 1, 1, 1, 1}), mlcp::FactorStatus::ok);
+  int in = 0;
+  for (const int q : stage.row_positions()) in += stage.factor.in(q);
+  EXPECT_EQ(in, 2) << "the parallel row goes, the nearly parallel one stays";
+  expect_factor_of(stage, random, 1e-9);
+}
+
+TEST(Factor, DependentRowWithComplianceStays) {
+  mlcp::Problem p = empty_problem();
+  add_body(p, 1, 1);
+  add_row(p, {{0, 1}}, 0, unilateral, 1e-3);
+  add_row(p, {{0, 1}}, 0, unilateral, 1e-3);
+  Stage stage(p);
+  ASSERT_EQ(stage.factorize({1, 1, 1}), mlcp::FactorStatus::ok);
+  for (const int q : stage.row_positions()) EXPECT_TRUE(stage.factor.in(q));
+}
+
+TEST(Factor, ZeroRowIsLeftOut) {
+  mlcp::Problem p = empty_problem();
+  add_row(p, {});
+  Stage stage(p);
+  ASSERT_EQ(stage.factorize({1}), mlcp::FactorStatus::ok);
+  EXPECT_FALSE(stage.factor.in(0));
+}
+
+TEST(Factor, SchurComplementOfARowThatIsOut) {
+  for (int seed = 0; seed < 300; ++seed) {
+    Random random(seed);
+    const mlcp::Problem p = random_problem(random, independent_rows());
+    Stage stage(p);
+    ASSERT_EQ(stage.factorize(random_rows(random, stage, 0.5), 1e-6), mlcp::FactorStatus::ok);
+    const Matrix K = stage.loaded();
+    std::vector<double> x(K.rows());
+    for (const int q : stage.row_positions()) {
+      if (stage.factor.in(q)) continue;
+      const mlcp::Island& island = stage.island_of(q);
+      const double schur = stage.factor.solve_row(island, q, x.data(), stage.work);
+      // K x = K(:,q) on what is in
+      Real complement = K(q, q), scale = stage.values.a[stage.pattern().row_ordinal[q]];
+      for (int i = island.first; i < island.last; ++i) {
+        if (!stage.factor.in(i)) continue;
+        complement -= K(q, i) * x[i];
+        Real residual = K(i, q), size = std::abs(K(i, q));
+        for (int j = island.first; j < island.last; ++j) {
+          if (!stage.factor.in(j)) continue;
+          residual -= K(i, j) * x[j];
+          size += std::abs(K(i, j) * x[j]);
+        }
+        ASSERT_LE(std::abs(residual), 1e-8 * size + 1e-12) << "seed " << seed;
+      }
+      ASSERT_NEAR(schur, static_cast<double>(complement), 1e-8 * static_cast<double>(scale)) << "seed " << seed;
+      ASSERT_EQ(stage.factor.schur(island, q, stage.work), schur) << "seed " << seed;
+    }
+  }
+}
+
+TEST(Factor, PathsLeadToTheRoot) {
+  Random random(9);
+  const Stage stage(random_chain(random, 10, 2, 1));
+  for (const int q : stage.row_positions()) {
+    std::int64_t count = 0;
+    for (int p = stage.analysis.symbolic.parent[q]; p >= 0; p = stage.analysis.symbolic.parent[p]) ++count;
+    EXPECT_EQ(stage.factor.path_columns(q), count);
+  }
+}
+
+}  // namespace
+}  // namespace support
