@@ -7,7 +7,8 @@ namespace {
 
 constexpr double zero = 1e-12;
 
-bool vanishes(long double sum, double size) { return std::abs(static_cast<double>(sum)) <= zero * size; }
+/// In extended precision: what underflows in double is not 0.
+bool vanishes(long double sum, double size) { return std::abs(sum) <= static_cast<long double>(zero) * size; }
 
 }  // namespace
 

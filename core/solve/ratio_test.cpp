@@ -15,38 +15,38 @@ Step ratio_test(const Island& island, const Basis& basis, const Direction& direc
   const KktValues& k = basis.values;
   Step step;
   const auto row = [&](std::int32_t o) { return basis.pattern->node[basis.position(o)]; };
-  const auto offer = [&](double length, std::int32_t o, ActiveSet::State to) {
-    length = std::max(length, 0.0);
-    if (length < step.length || (length == step.length && (step.blocking < 0 || row(o) < row(step.blocking))))
-      step = {length, o, to};
-  };
-
   const double per_unit = k.root_a[entering];
-  for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
-    if (set.state[o] != ActiveSet::active) continue;
-    const double slope = -direction.dx[basis.position(o)];
-    if (std::abs(slope) * k.root_a[o] <= negligible * per_unit) continue;
-    if (slope < 0 && k.lo[o] > -infinity) offer((k.lo[o] - basis.gamma(o)) / slope, o, ActiveSet::at_lower);
-    if (slope > 0 && k.hi[o] < infinity) offer((k.hi[o] - basis.gamma(o)) / slope, o, ActiveSet::at_upper);
-  }
-  if (rule == MLCP_PIVOT_PRINTED && !direction.dependent) {
-    for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
-      const double w = set.w[o], slope = direction.dw[o], zero = set.tolerance[o];
-      if (o == entering || zero == infinity) continue;
-      if (std::abs(slope) <= negligible * per_unit * k.root_a[o]) continue;
-      if (set.state[o] == ActiveSet::at_lower && w >= -zero && slope < 0) offer(-w / slope, o, ActiveSet::active);
-      if (set.state[o] == ActiveSet::at_upper && w <= zero && slope > 0) offer(-w / slope, o, ActiveSet::active);
-    }
-  }
-  // the entering row arrives: at w = 0, or at its far bound; it wins ties, which ends the inner loop
+  // the entering row arrives: at w = 0, or at its far bound
   const auto arrive = [&](double length, ActiveSet::State to) {
-    if (std::max(length, 0.0) <= step.length) step = {std::max(length, 0.0), entering, to};
+    if (std::max(length, 0.0) < step.length) step = {std::max(length, 0.0), entering, to};
   };
   if (!direction.dependent) arrive(-set.w[entering] / direction.dw[entering], ActiveSet::active);
   const double gamma = basis.gamma(entering);
   if (direction.sign > 0 && k.hi[entering] < infinity) arrive(k.hi[entering] - gamma, ActiveSet::at_upper);
   if (direction.sign < 0 && k.lo[entering] > -infinity) arrive(gamma - k.lo[entering], ActiveSet::at_lower);
-  if (set.state[entering] == ActiveSet::out && direction.sign * gamma < 0) arrive(std::abs(gamma), ActiveSet::out);
+
+  // row o blocks after `distance` at `slope`, both of one sign. Where it does not come before the present one, a product tells; the entering
+  // row wins ties, which ends the inner loop
+  const auto offer = [&](double distance, double slope, double scale, std::int32_t o, ActiveSet::State to) {
+    if (std::abs(distance) > step.length * std::abs(slope) || std::abs(slope) * scale <= negligible * per_unit) return;
+    const double length = std::max(distance / slope, 0.0);
+    const bool before = step.blocking >= 0 && step.blocking != entering && row(o) < row(step.blocking);
+    if (length < step.length || (length == step.length && before)) step = {length, o, to};
+  };
+  for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
+    if (set.state[o] != ActiveSet::active) continue;
+    const double slope = -direction.dx[basis.position(o)];
+    if (slope < 0 && k.lo[o] > -infinity) offer(std::min(k.lo[o] - basis.gamma(o), 0.0), slope, k.root_a[o], o, ActiveSet::at_lower);
+    if (slope > 0 && k.hi[o] < infinity) offer(std::max(k.hi[o] - basis.gamma(o), 0.0), slope, k.root_a[o], o, ActiveSet::at_upper);
+  }
+  if (rule == MLCP_PIVOT_PRINTED && !direction.dependent) {
+    for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
+      const double w = set.w[o], slope = direction.dw[o], zero = set.tolerance[o];
+      if (o == entering || zero == infinity) continue;
+      if (set.state[o] == ActiveSet::at_lower && w >= -zero && slope < 0) offer(std::min(-w, 0.0), slope, 1 / k.root_a[o], o, ActiveSet::active);
+      if (set.state[o] == ActiveSet::at_upper && w <= zero && slope > 0) offer(std::max(-w, 0.0), slope, 1 / k.root_a[o], o, ActiveSet::active);
+    }
+  }
   return step;
 }
 

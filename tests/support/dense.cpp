@@ -115,7 +115,7 @@ std::string certificate_fault(const Dense& d, std::span<const std::int32_t> rows
   }
   for (int i = 0; i < d.m(); ++i) {
     const Vector terms = d.S.col(i).cwiseProduct(full);
-    if (d.enabled[i] && std::abs(terms.sum()) > zero * terms.cwiseAbs().sum()) return "S y is not 0 at row " + std::to_string(i);
+    if (d.enabled[i] && std::abs(terms.sum()) > zero * terms.cwiseAbs().sum() + 1e-300L) return "S y is not 0 at row " + std::to_string(i);
   }
   Real gap = 0, size = 0;
   for (int i = 0; i < d.m(); ++i) {
