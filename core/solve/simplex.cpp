@@ -24,6 +24,7 @@ void Simplex::prepare(const Problem& problem, const Mask* enabled, const Setting
   direction_.dw.assign(basis_.pattern->rows(), 0.0);
   rhs_.resize(basis_.pattern->size());
   rhs_size_.resize(basis_.pattern->size());
+  residual_.resize(basis_.pattern->size());
   entered_.assign(basis_.pattern->rows(), 0);
 }
 
@@ -134,6 +135,10 @@ mlcp_outcome Simplex::start(const Island& island, Limits& limits, Counts& counts
   return MLCP_SOLVED;
 }
 
+bool Simplex::depends(const Island& island, std::int32_t o, Counts& counts) {
+  return -basis_.factor.schur(island, basis_.position(o), counts.work) <= dependent_ * basis_.values.a[o];
+}
+
 /// The inner loop of the pseudocode: drives one violated row to w = 0 or to its far bound. By the printed rule rows come in on the way, so
 /// that it may hold (w = 0) and depend on them: then its impulse goes back to rest and they take it over, or one of them leaves.
 mlcp_outcome Simplex::treat(const Island& island, std::int32_t entering, Limits& limits, Counts& counts, Array<mlcp_pivot>* trace) {
@@ -146,8 +151,12 @@ mlcp_outcome Simplex::treat(const Island& island, std::int32_t entering, Limits&
     direction_.sign = sign;
     find_direction(island, entering, counts);
     if (holds && direction_.dependent) reverse(island);
-    const Step step = holds && !direction_.dependent ? Step{0, entering, ActiveSet::active}
-                                                     : ratio_test(island, basis_, direction_, entering, settings_->pivot_rule);
+    Step step = holds && !direction_.dependent ? Step{0, entering, ActiveSet::active}
+                                               : ratio_test(island, basis_, direction_, entering, settings_->pivot_rule);
+    while (step.to == ActiveSet::active && step.blocking >= 0 && step.blocking != entering && depends(island, step.blocking, counts)) {
+      direction_.dw[step.blocking] = 0;  // was rounding: its w cannot change without that of the active rows
+      step = ratio_test(island, basis_, direction_, entering, settings_->pivot_rule);
+    }
     ++counts.pivots;
     if (trace)
       trace->push_back({island_index_, row(entering), row(step.blocking),
@@ -156,7 +165,7 @@ mlcp_outcome Simplex::treat(const Island& island, std::int32_t entering, Limits&
                                                                                      : MLCP_ROW_AT_LOWER),
                         direction_.dependent, step.length * direction_.sign, basis_.set.w[entering], direction_.schur});
     if (step.blocking < 0) {
-      if (certifying_ && certify(island, entering)) return MLCP_INFEASIBLE;
+      if (certifying_ && certify(island, entering, counts)) return MLCP_INFEASIBLE;
       if (direction_.schur > lost_pivot) {  // no proof: then it is no dependence either, but a large mass ratio or a narrow wedge
         dependent_ = std::max(lost_pivot, 0.5 * direction_.schur);
         continue;
@@ -182,26 +191,51 @@ mlcp_outcome Simplex::treat(const Island& island, std::int32_t entering, Limits&
   }
 }
 
-/// y = change of the impulses along the step on which nothing blocks; refined, since Jᵀy = 0 is asked to 1e-12. Entries that ought to be 0
-/// are rounding, and on a soft row Σy = 0 forgives none: more and more of the smallest are left out, until the rest is a proof.
-bool Simplex::certify(const Island& island, std::int32_t entering) {
+/// dx over the rows −= that of K⁻¹ K (0, dx): with the velocities at 0, where they belong, Jᵀy and Σy are what is left to correct.
+void Simplex::sharpen_certificate(const Island& island, Counts& counts) {
   const KktPattern& pattern = *basis_.pattern;
-  const double per_unit = basis_.values.root_a[entering];
-  for (const double negligible : {1e-15, 1e-14, 1e-13, 1e-12, 1e-11}) {
-    certificate_row.clear();
-    certificate_y.clear();
-    for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
-      if (o != entering && basis_.set.state[o] != ActiveSet::active) continue;
-      const double y = -direction_.dx[basis_.position(o)];
-      // the ratio test has shown that a sign against the bounds is rounding
-      const bool against = y > 0 ? basis_.values.hi[o] < infinity : basis_.values.lo[o] > -infinity;
-      if (o != entering && (against || std::abs(y) * basis_.values.root_a[o] <= negligible * per_unit)) continue;
-      certificate_row.push_back(pattern.node[basis_.position(o)] - problem_->n());
-      certificate_y.push_back(y);
+  for (std::int32_t q = island.first; q < island.last; ++q) {
+    if (!pattern.is_row(q)) direction_.dx[q] = 0;
+    residual_[q] = basis_.values.diagonal[q] * static_cast<long double>(direction_.dx[q]);
+  }
+  for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
+    const long double x = direction_.dx[basis_.position(o)];
+    if (x == 0) continue;
+    for (std::int32_t t = pattern.row_pointers[o]; t < pattern.row_pointers[o + 1]; ++t)
+      residual_[pattern.row_columns[t]] += basis_.values.row[t] * x;
+  }
+  for (std::int32_t q = island.first; q < island.last; ++q) rhs_[q] = static_cast<double>(residual_[q]);
+  basis_.factor.solve(island, rhs_.data(), counts.work);
+  for (std::int32_t q = island.first; q < island.last; ++q)
+    if (pattern.is_row(q) && basis_.factor.in(q)) direction_.dx[q] -= rhs_[q];
+}
+
+/// y = change of the impulses along the step on which nothing blocks, sharpened, since Jᵀy = 0 is asked to 1e-12. Entries that ought to
+/// be 0 are rounding, and on a soft row Σy = 0 forgives none: more and more of the smallest are left out, until the rest is a proof.
+bool Simplex::certify(const Island& island, std::int32_t entering, Counts& counts) {
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    if (attempt > 0) sharpen_certificate(island, counts);
+    for (const double negligible : {1e-15, 1e-14, 1e-13, 1e-12, 1e-11}) {
+      collect_certificate(island, entering, negligible);
+      if (check_.holds(*problem_, enabled_, certificate_row.span(), certificate_y.span())) return true;
     }
-    if (check_.holds(*problem_, enabled_, certificate_row.span(), certificate_y.span())) return true;
   }
   return false;
+}
+
+void Simplex::collect_certificate(const Island& island, std::int32_t entering, double negligible) {
+  const double per_unit = basis_.values.root_a[entering];
+  certificate_row.clear();
+  certificate_y.clear();
+  for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
+    if (o != entering && basis_.set.state[o] != ActiveSet::active) continue;
+    const double y = -direction_.dx[basis_.position(o)];
+    // the ratio test has shown that a sign against the bounds is rounding
+    const bool against = y > 0 ? basis_.values.hi[o] < infinity : basis_.values.lo[o] > -infinity;
+    if (o != entering && (against || std::abs(y) * basis_.values.root_a[o] <= negligible * per_unit)) continue;
+    certificate_row.push_back(basis_.pattern->node[basis_.position(o)] - problem_->n());
+    certificate_y.push_back(y);
+  }
 }
 
 mlcp_outcome Simplex::solve(const Island& island, std::int32_t index, Limits& limits, Counts& counts, Array<mlcp_pivot>* trace) {

@@ -15,7 +15,7 @@ namespace mlcp {
 class Simplex {
  public:
   Simplex(const Memory& m, Basis& basis)
-      : certificate_row(m), certificate_y(m), basis_(basis), direction_(m), check_(m), beyond_(m), rhs_(m), rhs_size_(m), entered_(m) {}
+      : certificate_row(m), certificate_y(m), basis_(basis), direction_(m), check_(m), beyond_(m), rhs_(m), rhs_size_(m), residual_(m), entered_(m) {}
 
   void prepare(const Problem& problem, const Mask* enabled, const Settings& settings);
 
@@ -41,7 +41,10 @@ class Simplex {
   void reverse(const Island& island);
   void advance(const Island& island, double length);
   bool drop_beyond_bounds(const Island& island, Counts& counts);
-  bool certify(const Island& island, std::int32_t entering);
+  bool depends(const Island& island, std::int32_t o, Counts& counts);
+  bool certify(const Island& island, std::int32_t entering, Counts& counts);
+  void sharpen_certificate(const Island& island, Counts& counts);
+  void collect_certificate(const Island& island, std::int32_t entering, double negligible);
   void tighten(const Island& island);
 
   Basis& basis_;
@@ -49,6 +52,7 @@ class Simplex {
   CertificateCheck check_;
   Array<std::int32_t> beyond_;
   Array<double> rhs_, rhs_size_;
+  Array<long double> residual_;
   Array<std::int32_t> entered_;      // how often a row has entered
   double dependent_ = dependent_pivot;
   const Problem* problem_ = nullptr;

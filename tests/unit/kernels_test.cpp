@@ -1,0 +1,93 @@
+// The portable loops and those for AVX2 give the same bits: on every CPU the same results.
+#include "factorize/kernels.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <vector>
+
+#include "support/random.h"
+
+namespace support {
+namespace {
+
+/// A stretch of nested columns with rows scattered over a vector, some columns out.
+struct Columns {
+  std::vector<std::int64_t> pointers{0};
+  std::vector<std::int32_t> rows;
+  std::vector<double> values, pivot, inverse, gathered, x;
+  std::vector<std::uint8_t> in;
+  mlcp::Stretch stretch{};
+
+  Columns(Random& random, int columns, int tail) : stretch{0, columns, columns - 1 + tail, nullptr} {
+    const int size = columns + 3 * tail + 1;
+    for (int j = 1; j < columns; ++j) rows.push_back(j);
+    for (int i = 0; i < tail; ++i) rows.push_back(columns + 3 * i + random.integer(0, 2));
+    stretch.rows = rows.data();
+    for (int j = 0; j < columns; ++j) {
+      in.push_back(random.chance(0.7));
+      pivot.push_back(in[j] ? random.uniform() + (j % 2 ? 3 : -3) : 0);
+      inverse.push_back(in[j] ? 1 / pivot[j] : 0);
+      for (int i = j; i < columns - 1 + tail; ++i) values.push_back(in[j] && random.chance(0.9) ? random.uniform() : 0);
+      pointers.push_back(static_cast<std::int64_t>(values.size()));
+    }
+    for (int i = 0; i < size; ++i) x.push_back(i < columns && !in[i] ? 0 : random.uniform());
+    gathered.resize(size);
+  }
+  mlcp::FactorArrays arrays() { return {values.data(), pointers.data(), in.data(), pivot.data(), inverse.data(), gathered.data()}; }
+};
+
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+class Kernels : public testing::Test {
+ protected:
+  template <class Run>
+  void compare(Run run) {
+    const mlcp::Kernels& other = mlcp::kernels_for_this_cpu();  // the portable ones where there is no AVX2: then this proves nothing
+    for (int seed = 0; seed < 3000; ++seed) {
+      Random random(seed);
+      const int columns = random.integer(1, 14), tail = random.integer(0, 23);
+      Columns a(random, columns, tail), b = a;
+      b.stretch.rows = b.rows.data();
+      const auto of_a = run(mlcp::portable_kernels, a), of_b = run(other, b);
+      ASSERT_EQ(of_a, of_b) << "seed " << seed;
+      ASSERT_TRUE(same_bits(a.x, b.x) && same_bits(a.values, b.values) && same_bits(a.pivot, b.pivot)) << "seed " << seed;
+    }
+  }
+};
+
+TEST_F(Kernels, ForwardGivesTheSameBits) {
+  compare([](const mlcp::Kernels& k, Columns& c) { return k.forward(c.arrays(), c.stretch, c.x.data()); });
+}
+
+TEST_F(Kernels, BackwardGivesTheSameBits) {
+  compare([](const mlcp::Kernels& k, Columns& c) { return k.backward(c.arrays(), c.stretch, c.x.data()); });
+}
+
+TEST_F(Kernels, RankOneGivesTheSameBits) {
+  compare([](const mlcp::Kernels& k, Columns& c) {
+    double sigma = 0.25;
+    return std::pair(k.rank_one(c.arrays(), c.stretch, c.x.data(), sigma), sigma);
+  });
+}
+
+/// Against the sums written down literally.
+TEST_F(Kernels, BackwardSolvesTheTransposedColumns) {
+  for (int seed = 0; seed < 1000; ++seed) {
+    Random random(seed);
+    Columns c(random, random.integer(1, 14), random.integer(0, 23));
+    std::vector<double> x = c.x;
+    for (int j = c.stretch.last - 1; j >= 0; --j) {
+      double sum = 0;
+      for (std::int64_t t = c.pointers[j]; t < c.pointers[j + 1]; ++t) sum += c.values[t] * x[c.rows[j + t - c.pointers[j]]];
+      x[j] = c.in[j] ? (x[j] - sum) / c.pivot[j] : 0;
+    }
+    mlcp::portable_kernels.backward(c.arrays(), c.stretch, c.x.data());
+    for (std::size_t i = 0; i < x.size(); ++i) ASSERT_NEAR(c.x[i], x[i], 1e-12 * (1 + std::abs(x[i]))) << "seed " << seed << " at " << i;
+  }
+}
+
+}  // namespace
+}  // namespace support
