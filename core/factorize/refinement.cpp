@@ -1,7 +1,8 @@
 #include "factorize/refinement.h"
 
-#include <algorithm>
 #include <cmath>
+
+#include "memory/slice.h"
 
 namespace mlcp {
 namespace {
@@ -55,12 +56,12 @@ double Refinement::measure(const Island& island, const KktPattern& pattern, cons
 /// still off, is 0: the row holds it exactly there.
 void Refinement::polish_rows(const Island& island, const KktPattern& pattern, const KktValues& values, const Factor& factor,
                              const double* b, const double* size, double* x, std::int64_t& work) {
+  const auto of = [&](auto* data) { return slice(data, island.first, island.last); };
   for (int step = 0; step < 2; ++step) {
     for (std::int32_t p = island.first; p < island.last; ++p)
       correction_[p] = pattern.is_row(p) ? static_cast<double>(residual_[p]) : 0.0;
-    factor.solve(island, correction_.data(), work);
-    for (std::int32_t p = island.first; p < island.last; ++p)
-      if (factor.in(p)) x[p] += correction_[p];
+    factor.solve(island, correction_.data(), work);  // 0 on what is out
+    of(x) += of(correction_.data());
     measure(island, pattern, values, factor, b, size, x, work);
   }
   for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
@@ -76,20 +77,20 @@ void Refinement::polish_rows(const Island& island, const KktPattern& pattern, co
 /// Solve and correct until rounding is reached or a step no longer helps; then, if rows are still off, polish them.
 double Refinement::solve(const Island& island, const KktPattern& pattern, const KktValues& values, const Factor& factor,
                          const double* b, const double* size, double* x, std::int64_t& steps, std::int64_t& work) {
+  const auto of = [&](auto* data) { return slice(data, island.first, island.last); };
   for (std::int32_t p = island.first; p < island.last; ++p)
     if (factor.in(p)) x[p] = 0;
   double error = measure(island, pattern, values, factor, b, size, x, work);
-  const auto keep = [&] { std::copy(x + island.first, x + island.last, best_.begin() + island.first); };
+  const auto keep = [&] { of(best_.data()) = of(x); };
   const auto go_back = [&] {
-    std::copy(best_.begin() + island.first, best_.begin() + island.last, x + island.first);
+    of(x) = of(best_.data());
     return measure(island, pattern, values, factor, b, size, x, work);
   };
   for (int step = 0; step <= most_steps; ++step) {
     keep();
-    for (std::int32_t p = island.first; p < island.last; ++p) correction_[p] = static_cast<double>(residual_[p]);
-    factor.solve(island, correction_.data(), work);
-    for (std::int32_t p = island.first; p < island.last; ++p)
-      if (factor.in(p)) x[p] += correction_[p];
+    of(correction_.data()) = of(residual_.data()).cast<double>();
+    factor.solve(island, correction_.data(), work);  // 0 on what is out
+    of(x) += of(correction_.data());
     steps += step > 0;
     const double now = measure(island, pattern, values, factor, b, size, x, work);
     if (step > 0 && !(now < error)) {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "memory/slice.h"
+
 namespace mlcp {
 namespace {
 
@@ -87,8 +89,7 @@ void Simplex::find_direction(const Island& island, std::int32_t entering, Counts
   direction_.schur = a > 0 ? direction_.schur / a : 0;
   direction_.dependent = !(direction_.schur > dependent_);
   dx[p] = -1;
-  if (direction_.sign < 0)
-    for (std::int32_t q = island.first; q < island.last; ++q) dx[q] = -dx[q];
+  if (direction_.sign < 0) slice(dx, island.first, island.last) *= -1;
   // (3.3) for the change: dw = K(rows,:) dx on the rows that rest
   const KktPattern& pattern = *basis_.pattern;
   for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
@@ -108,10 +109,8 @@ void Simplex::reverse(const Island& island) {
 }
 
 void Simplex::advance(const Island& island, double length) {
-  double* __restrict x = basis_.set.x.data();
-  double* __restrict w = basis_.set.w.data();
-  for (std::int32_t q = island.first; q < island.last; ++q) x[q] += length * direction_.dx[q];
-  for (std::int32_t o = island.first_row; o < island.last_row; ++o) w[o] += length * direction_.dw[o];
+  slice(basis_.set.x.data(), island.first, island.last) += length * slice(direction_.dx.data(), island.first, island.last);
+  slice(basis_.set.w.data(), island.first_row, island.last_row) += length * slice(direction_.dw.data(), island.first_row, island.last_row);
 }
 
 /// Rows whose impulse has left its bounds go to rest there. false: there is none.
