@@ -1,5 +1,9 @@
 #include "analyze/analysis.h"
 
+#include <cassert>
+
+#include "analyze/check_analysis.h"
+
 namespace mlcp {
 namespace {
 
@@ -49,6 +53,7 @@ void Analysis::run(const Problem& problem, const Mask* enabled, std::span<const 
     tree.build(pattern);
   }
   symbolic.build(pattern, tree);
+  assert(check_analysis(*this));
   remember(problem);
   done_ = true;
 }

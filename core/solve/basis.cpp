@@ -1,6 +1,7 @@
 #include "solve/basis.h"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 
 namespace mlcp {
@@ -83,7 +84,17 @@ void Basis::deactivate_all(const Island& island, std::span<const std::int32_t> r
   refactorize(island, lost_pivot, counts);
 }
 
+bool Basis::check(const Island& island) const {
+  for (std::int32_t o = island.first_row; o < island.last_row; ++o)
+    if ((set.state[o] == ActiveSet::active) != factor.in(position(o))) return false;
+  return true;
+}
+
 void Basis::solve_point(const Island& island, Counts& counts) {
+  assert(check(island));
+  // a direction that overflowed may have left its mark on rows at rest
+  for (std::int32_t o = island.first_row; o < island.last_row; ++o)
+    if (set.state[o] != ActiveSet::active) rest(o, static_cast<ActiveSet::State>(set.state[o]));
   const auto refined = [&] {
     return refinement.solve(island, *pattern, values, factor, values.b.data(), values.size.data(), set.x.data(), counts.refinements, counts.work);
   };

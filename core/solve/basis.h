@@ -40,6 +40,9 @@ class Basis {
   /// Slacks up to this, relative to the scale of their error, count as zero while solving.
   double zero() const;
 
+  /// The invariant of an island, for assertions.
+  bool check(const Island& island) const;
+
   std::int32_t position(std::int32_t o) const { return pattern->row_position[o]; }
   double gamma(std::int32_t o) const { return -set.x[position(o)]; }
 

@@ -138,6 +138,20 @@ bool Simplex::depends(const Island& island, std::int32_t o, Counts& counts) {
   return -basis_.factor.schur(island, basis_.position(o), counts.work) <= dependent_ * basis_.values.a[o];
 }
 
+/// The point of the active set, smaller by the rows whose impulses it has beyond their bounds: it only shrinks, so this ends.
+void Simplex::settle_point(const Island& island, Counts& counts) {
+  do basis_.solve_point(island, counts);
+  while (drop_beyond_bounds(island, counts));
+}
+
+/// Ends a treatment in which the row did not arrive: its impulse goes back to where its state says.
+mlcp_outcome Simplex::leave(const Island& island, std::int32_t entering, mlcp_outcome outcome, Counts& counts) {
+  const double moved = basis_.set.x[basis_.position(entering)];
+  basis_.rest(entering, static_cast<ActiveSet::State>(basis_.set.state[entering]));
+  if (outcome == MLCP_SOLVED && moved != basis_.set.x[basis_.position(entering)]) settle_point(island, counts);
+  return outcome;
+}
+
 /// The inner loop of the pseudocode: drives one violated row to w = 0 or to its far bound. By the printed rule rows come in on the way, so
 /// that it may hold (w = 0) and depend on them: then its impulse goes back to rest and they take it over, or one of them leaves.
 mlcp_outcome Simplex::treat(const Island& island, std::int32_t entering, Limits& limits, Counts& counts, Array<mlcp_pivot>* trace) {
@@ -146,7 +160,8 @@ mlcp_outcome Simplex::treat(const Island& island, std::int32_t entering, Limits&
   const double sign = basis_.set.w[entering] < 0 ? 1 : -1;
   while (true) {
     const bool holds = std::abs(basis_.set.w[entering]) <= basis_.set.tolerance[entering];
-    if (const mlcp_outcome stop = limits.check(counts, std::abs(basis_.set.w[entering])); stop != MLCP_SOLVED) return stop;
+    if (const mlcp_outcome stop = limits.check(counts, std::abs(basis_.set.w[entering])); stop != MLCP_SOLVED)
+      return leave(island, entering, stop, counts);
     direction_.sign = sign;
     find_direction(island, entering, counts);
     if (holds && direction_.dependent) reverse(island);
@@ -164,13 +179,13 @@ mlcp_outcome Simplex::treat(const Island& island, std::int32_t entering, Limits&
                                                                                      : MLCP_ROW_AT_LOWER),
                         direction_.dependent, step.length * direction_.sign, basis_.set.w[entering], direction_.schur});
     if (step.blocking < 0) {
-      if (certifying_ && certify(island, entering, counts)) return MLCP_INFEASIBLE;
+      if (certifying_ && certify(island, entering, counts)) return leave(island, entering, MLCP_INFEASIBLE, counts);
       if (direction_.schur > lost_pivot) {  // no proof: then it is no dependence either, but a large mass ratio or a narrow wedge
         dependent_ = std::max(lost_pivot, 0.5 * direction_.schur);
         continue;
       }
       basis_.set.defer(entering);
-      return MLCP_SOLVED;
+      return leave(island, entering, MLCP_SOLVED, counts);
     }
     if (step.length > 0) advance(island, step.length);
     if (step.blocking == entering) {
@@ -274,8 +289,7 @@ mlcp_outcome Simplex::run(const Island& island, Limits& limits, Counts& counts, 
       if (outcome != MLCP_SOLVED) break;
     }
     // the answer comes from the linear system of the final active set, not from the sum of the steps
-    do basis_.solve_point(island, counts);
-    while (drop_beyond_bounds(island, counts));
+    settle_point(island, counts);
     if (outcome != MLCP_SOLVED || entering_row(island) < 0) break;
   }
   return outcome;

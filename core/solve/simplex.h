@@ -33,6 +33,8 @@ class Simplex {
  private:
   mlcp_outcome run(const Island& island, Limits& limits, Counts& counts, Array<mlcp_pivot>* trace);
   mlcp_outcome start(const Island& island, Limits& limits, Counts& counts);
+  void settle_point(const Island& island, Counts& counts);
+  mlcp_outcome leave(const Island& island, std::int32_t entering, mlcp_outcome outcome, Counts& counts);
   mlcp_outcome treat(const Island& island, std::int32_t entering, Limits& limits, Counts& counts, Array<mlcp_pivot>* trace);
   std::int32_t entering_row(const Island& island) const;
   double pivot_along(std::int32_t entering, const double* z) const;

@@ -14,8 +14,8 @@ struct Tally {
 };
 
 /// "" if the solver agrees with the oracle: same v where there is a solution, a certificate where there is none.
-std::string disagreement(const mlcp::Problem& problem, const mlcp::Mask* enabled, const mlcp::Mask* start, const mlcp::Settings& how,
-                         Tally& tally) {
+std::string disagreement(const mlcp::Problem& problem, const mlcp::Mask* enabled, const mlcp::Mask* start,
+                         const mlcp::Settings& how, Tally& tally) {
   const Dense d = dense(problem, enabled);
   const Solution s = solve(problem, how, enabled, start);
   std::optional<Vector> gamma = oracle(d);

@@ -180,7 +180,8 @@ TEST(Update, AllOutAndInAgain) {
     shuffle();
     for (const int q : rows) ASSERT_EQ(updated.factor.remove(q, updated.work), mlcp::FactorStatus::ok) << "seed " << seed;
     fresh.factorize(none);
-    for (int q = 0; q < updated.pattern().size(); ++q) ASSERT_NEAR(updated.factor.pivot(q), fresh.factor.pivot(q), 1e-9) << "seed " << seed;
+    for (int q = 0; q < updated.pattern().size(); ++q)
+      ASSERT_NEAR(updated.factor.pivot(q), fresh.factor.pivot(q), 1e-9) << "seed " << seed;
     shuffle();
     for (const int q : rows) ASSERT_EQ(updated.factor.insert(q, updated.work), mlcp::FactorStatus::ok) << "seed " << seed;
     std::vector<double> b(all.size(), 1.0);

@@ -71,7 +71,8 @@ void set_k(mlcp::Problem& problem, const Eigen::VectorXd& k) {
   mlcp::set_momentum(problem, 0, static_cast<std::int32_t>(k.size()), k.data());
 }
 
-int add_row(mlcp::Problem& problem, const std::vector<Entry>& entries, double r, Bounds bounds, double compliance, std::uint64_t key) {
+int add_row(mlcp::Problem& problem, const std::vector<Entry>& entries, double r, Bounds bounds, double compliance,
+            std::uint64_t key) {
   std::vector<std::int32_t> columns;
   std::vector<double> values;
   for (const Entry& e : entries) {
@@ -84,8 +85,8 @@ int add_row(mlcp::Problem& problem, const std::vector<Entry>& entries, double r,
 
 void set_sigma(mlcp::Problem& problem, const Eigen::MatrixXd& sigma) {
   const Columns c = compress(sigma);
-  mlcp::set_compliance_matrix(problem, {static_cast<std::int32_t>(sigma.rows()), c.pointers.data(), c.rows.data(), c.values.data(),
-                                        MLCP_FULL});
+  const auto size = static_cast<std::int32_t>(sigma.rows());
+  mlcp::set_compliance_matrix(problem, {size, c.pointers.data(), c.rows.data(), c.values.data(), MLCP_FULL});
 }
 
 mlcp::Mask mask_of(const std::vector<mlcp_row_state>& states) {
@@ -105,7 +106,8 @@ std::string text(const mlcp::Problem& problem, const mlcp::Mask* enabled, const 
   std::ostringstream out;
   out.precision(17);
   for (std::size_t b = 0; b < problem.bodies.size(); ++b)
-    out << "body " << b << " dimension " << problem.bodies[b].dimension << (problem.bodies[b].prescribed ? " prescribed\n" : "\n");
+    out << "body " << b << " dimension " << problem.bodies[b].dimension
+        << (problem.bodies[b].prescribed ? " prescribed\n" : "\n");
   print(out, "M", problem.mass_view());
   out << "k, given velocity\n";
   for (std::int32_t j = 0; j < problem.n(); ++j)

@@ -29,7 +29,8 @@ Real median(Real x, Real y, Real z) { return std::max(std::min(x, y), std::min(s
 
 Dense dense(const mlcp::Problem& p, const mlcp::Mask* enabled) {
   const int n = p.n(), m = p.m();
-  Dense d{Matrix::Zero(n, n), Matrix::Zero(m, n), Matrix::Zero(m, m), Vector(n), Vector(m), Vector(m), Vector(m), Vector(n), {}, {}};
+  Dense d{Matrix::Zero(n, n), Matrix::Zero(m, n), Matrix::Zero(m, m), Vector(n), Vector(m), Vector(m), Vector(m), Vector(n),
+          {}, {}};
   for (int j = 0; j < n; ++j) {
     for (auto t = p.mass.pointers[j]; t < p.mass.pointers[j + 1]; ++t) d.M(p.mass.indices[t], j) += p.mass.values[t];
     d.k[j] = p.momentum[j];
@@ -37,7 +38,8 @@ Dense dense(const mlcp::Problem& p, const mlcp::Mask* enabled) {
     d.dynamic.push_back(!p.prescribed(j));
   }
   for (int i = 0; i < m; ++i) {
-    for (auto t = p.jacobian.pointers[i]; t < p.jacobian.pointers[i + 1]; ++t) d.J(i, p.jacobian.indices[t]) += p.jacobian.values[t];
+    for (auto t = p.jacobian.pointers[i]; t < p.jacobian.pointers[i + 1]; ++t)
+      d.J(i, p.jacobian.indices[t]) += p.jacobian.values[t];
     for (auto t = p.compliance.pointers[i]; t < p.compliance.pointers[i + 1]; ++t)
       d.S(p.compliance.indices[t], i) += p.compliance.values[t];
     d.r[i] = p.r[i];
@@ -115,7 +117,8 @@ std::string certificate_fault(const Dense& d, std::span<const std::int32_t> rows
   }
   for (int i = 0; i < d.m(); ++i) {
     const Vector terms = d.S.col(i).cwiseProduct(full);
-    if (d.enabled[i] && std::abs(terms.sum()) > zero * terms.cwiseAbs().sum() + 1e-300L) return "S y is not 0 at row " + std::to_string(i);
+    if (d.enabled[i] && std::abs(terms.sum()) > zero * terms.cwiseAbs().sum() + 1e-300L)
+      return "S y is not 0 at row " + std::to_string(i);
   }
   Real gap = 0, size = 0;
   for (int i = 0; i < d.m(); ++i) {

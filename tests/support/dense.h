@@ -38,7 +38,8 @@ struct DenseErrors {
 DenseErrors errors_of(const Dense& d, const Vector& v, const Vector& gamma, Real negligible = 0);
 
 /// "" if y on the rows proves infeasibility as Farkas has it, else what is wrong. zero: relative size that counts as nothing.
-std::string certificate_fault(const Dense& d, std::span<const std::int32_t> rows, std::span<const double> y, Real zero = 1e-12L);
+std::string certificate_fault(const Dense& d, std::span<const std::int32_t> rows, std::span<const double> y,
+                              Real zero = 1e-12L);
 
 /// The dense LCP of paper (2.8), over the enabled rows: w = A γ + b, A = J M⁻¹Jᵀ + Σ, b = J M⁻¹k + J v_given − r.
 struct Reduced {
@@ -58,7 +59,7 @@ Vector velocities(const Dense& d, const Vector& gamma);
 std::optional<Vector> enumerate(const Reduced& p, Real zero = 1e-15L);
 /// The same for the whole problem: γ over all rows, 0 where disabled.
 std::optional<Vector> oracle(const Dense& d);
-/// Where slacks up to 1e-13 of the largest terms in the problem count as nothing: for problems that only rounding makes infeasible.
+/// Where slacks up to 1e-13 of the largest terms in the problem count as nothing: for what only rounding makes infeasible.
 std::optional<Vector> forgiving_oracle(const Dense& d);
 
 /// x with A x = b for symmetric positive definite A.

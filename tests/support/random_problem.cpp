@@ -1,11 +1,15 @@
 #include "support/random_problem.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace support {
 namespace {
 
 double number(Random& random, bool integers) { return integers ? random.integer(-1, 1) : random.uniform(); }
+
+/// Products and sums of a few are exact, so that B Bᵀ is semidefinite and not nearly so.
+double coarse(Random& random, bool integers) { return integers ? random.integer(-1, 1) : random.integer(-32, 32) / 32.0; }
 
 struct Row {
   std::vector<Entry> entries;
@@ -104,7 +108,7 @@ mlcp::Problem random_problem(Random& random, const Shape& shape) {
   if (m > 0 && !feasible && !shape.integers && random.chance(shape.compliance_matrix)) {
     Eigen::MatrixXd B = Eigen::MatrixXd::Zero(m, std::max(1, m / 2));
     for (int i = 0; i < m; ++i)
-      if (random.chance(0.6)) B(i, random.integer(0, static_cast<int>(B.cols()) - 1)) = number(random, shape.integers);
+      if (random.chance(0.6)) B(i, random.integer(0, static_cast<int>(B.cols()) - 1)) = coarse(random, false);
     set_sigma(problem, B * B.transpose());
   }
   return problem;
@@ -112,7 +116,8 @@ mlcp::Problem random_problem(Random& random, const Shape& shape) {
 
 mlcp::Mask random_mask(Random& random, int rows) {
   mlcp::Mask mask{mlcp::Memory()};
-  for (int i = 0; i < rows; ++i) mask.state.push_back(static_cast<mlcp_row_state>(random.integer(MLCP_ROW_DISABLED, MLCP_ROW_AT_UPPER)));
+  for (int i = 0; i < rows; ++i)
+    mask.state.push_back(static_cast<mlcp_row_state>(random.integer(MLCP_ROW_DISABLED, MLCP_ROW_AT_UPPER)));
   return mask;
 }
 
@@ -127,14 +132,14 @@ mlcp::Problem random_reduced(Random& random, int rows, int rank, bool integers) 
   Eigen::MatrixXd B(rows, rank);
   Eigen::VectorXd b(rows);
   for (int i = 0; i < rows; ++i) {
-    for (int j = 0; j < rank; ++j) B(i, j) = number(random, integers);
-    b[i] = number(random, integers);
+    for (int j = 0; j < rank; ++j) B(i, j) = coarse(random, integers);
+    b[i] = coarse(random, integers);
   }
   if (rank < rows && random.chance(0.7)) {  // b = B t + room: feasible
     Eigen::VectorXd t(rank);
-    for (int j = 0; j < rank; ++j) t[j] = number(random, integers);
+    for (int j = 0; j < rank; ++j) t[j] = coarse(random, integers);
     b = B * t;
-    for (int i = 0; i < rows; ++i) b[i] += integers ? random.integer(0, 1) : random.uniform(0, 0.3);
+    for (int i = 0; i < rows; ++i) b[i] += integers ? random.integer(0, 1) : std::abs(coarse(random, false)) / 4;
   }
   return reduced_problem(B * B.transpose(), b);
 }

@@ -64,7 +64,8 @@ std::string fault(const Dense& d, const Solution& s, double most) {
     out << "reported constraint error " << s.report.constraint_error << ", recomputed " << e.constraints << "; ";
   for (int i = 0; i < d.m(); ++i) {
     if (!d.enabled[i] && (s.gamma[i] != 0 || s.state[i] != MLCP_ROW_DISABLED)) out << "disabled row " << i << " acts; ";
-    if (d.enabled[i] && !(s.gamma[i] >= d.lo[i] && s.gamma[i] <= d.hi[i])) out << "impulse " << i << " = " << s.gamma[i] << " out of its bounds; ";
+    if (d.enabled[i] && !(s.gamma[i] >= d.lo[i] && s.gamma[i] <= d.hi[i]))
+      out << "impulse " << i << " = " << s.gamma[i] << " out of its bounds; ";
   }
   return out.str();
 }

@@ -146,7 +146,8 @@ TEST(MinimumDegree, RandomGraphsNearExactMinimumDegree) {
     const int n = random.integer(1, 60);
     Edges edges;
     for (int e = random.integer(0, 3 * n); e > 0; --e) edges.push_back({random.integer(0, n - 1), random.integer(0, n - 1)});
-    const auto mine = static_cast<double>(fill_of(n, edges)), exact = static_cast<double>(entries_of_factor(n, edges, naive_order(n, edges)));
+    const auto mine = static_cast<double>(fill_of(n, edges));
+    const auto exact = static_cast<double>(entries_of_factor(n, edges, naive_order(n, edges)));
     ASSERT_FALSE(HasFailure()) << "seed " << seed;
     EXPECT_LE(mine, 1.3 * exact + 10) << "seed " << seed;
     sum += mine;

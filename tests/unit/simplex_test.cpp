@@ -224,7 +224,8 @@ TEST(Simplex, ZeroRows) {
 }
 
 TEST(Simplex, ZeroRowThatCannotHoldIsNamed) {
-  for (const auto& [bounds, r] : {std::pair{unilateral, 1.0}, {bilateral, 1.0}, {bilateral, -1.0}, {Bounds{-mlcp::infinity, 0}, -1.0}}) {
+  for (const auto& [bounds, r] :
+       {std::pair{unilateral, 1.0}, {bilateral, 1.0}, {bilateral, -1.0}, {Bounds{-mlcp::infinity, 0}, -1.0}}) {
     mlcp::Problem p = falling_body(1);
     add_row(p, {{0, 1}});
     add_row(p, {}, r, bounds);
