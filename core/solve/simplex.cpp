@@ -13,6 +13,8 @@ constexpr int most_rounds = 40;
 constexpr std::int32_t often = 4;
 /// Directions of rows whose Schur pivot is below this, relative to a, are refined: their w and γ hang on its last digits.
 constexpr double delicate = 1e-7;
+/// What is left of a violation when the steps that mend it are as good as their directions.
+constexpr double arrived = 1e-9;
 /// Disagreement of the two ways to the Schur pivot, relative to a, that shows a drifted factor.
 constexpr double drift = 1e-7;
 
@@ -157,9 +159,9 @@ mlcp_outcome Simplex::leave(const Island& island, std::int32_t entering, mlcp_ou
 mlcp_outcome Simplex::treat(const Island& island, std::int32_t entering, Limits& limits, Counts& counts, Array<mlcp_pivot>* trace) {
   const std::int32_t n = problem_->n();
   const auto row = [&](std::int32_t o) { return o < 0 ? -1 : basis_.pattern->node[basis_.position(o)] - n; };
-  const double sign = basis_.set.w[entering] < 0 ? 1 : -1;
+  const double sign = basis_.set.w[entering] < 0 ? 1 : -1, violation = std::abs(basis_.set.w[entering]);
   while (true) {
-    const bool holds = std::abs(basis_.set.w[entering]) <= basis_.set.tolerance[entering];
+    const bool holds = std::abs(basis_.set.w[entering]) <= std::max(basis_.set.tolerance[entering], arrived * violation);
     if (const mlcp_outcome stop = limits.check(counts, std::abs(basis_.set.w[entering])); stop != MLCP_SOLVED)
       return leave(island, entering, stop, counts);
     direction_.sign = sign;
