@@ -33,9 +33,12 @@ Step ratio_test(const Island& island, const Basis& basis, const Direction& direc
     const bool before = step.blocking >= 0 && step.blocking != entering && row(o) < row(step.blocking);
     if (length < step.length || (length == step.length && before)) step = {length, o, to};
   };
+  const std::uint8_t* state = set.state.data();
+  const std::int32_t* position = basis.pattern->row_position.data();
+  const double* dx = direction.dx.data();
   for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
-    if (set.state[o] != ActiveSet::active) continue;
-    const double slope = -direction.dx[basis.position(o)];
+    if (state[o] != ActiveSet::active) continue;
+    const double slope = -dx[position[o]];
     if (slope < 0 && k.lo[o] > -infinity) offer(std::min(k.lo[o] - basis.gamma(o), 0.0), slope, k.root_a[o], o, ActiveSet::at_lower);
     if (slope > 0 && k.hi[o] < infinity) offer(std::max(k.hi[o] - basis.gamma(o), 0.0), slope, k.root_a[o], o, ActiveSet::at_upper);
   }

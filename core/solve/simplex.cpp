@@ -38,9 +38,10 @@ std::int32_t Simplex::entering_row(const Island& island) const {
   std::int32_t best = -1;
   double most = 0;
   const auto row = [&](std::int32_t o) { return basis_.pattern->node[basis_.position(o)]; };
+  const double *slack = set.w.data(), *zero = set.tolerance.data();
   for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
-    const double w = set.w[o];
-    if (std::abs(w) <= set.tolerance[o]) continue;
+    const double w = slack[o];
+    if (std::abs(w) <= zero[o]) continue;
     const std::uint8_t state = set.state[o];
     if (state == ActiveSet::active || state == ActiveSet::disabled || state == (w > 0 ? ActiveSet::at_lower : ActiveSet::at_upper)) continue;
     const double size = basis_.values.a[o] > 0 ? std::abs(w) / basis_.values.root_a[o] : infinity;
@@ -94,12 +95,15 @@ void Simplex::find_direction(const Island& island, std::int32_t entering, Counts
   if (direction_.sign < 0) slice(dx, island.first, island.last) *= -1;
   // (3.3) for the change: dw = K(rows,:) dx on the rows that rest
   const KktPattern& pattern = *basis_.pattern;
+  const std::uint8_t* state = basis_.set.state.data();
+  const std::int32_t *start = pattern.row_pointers.data(), *columns = pattern.row_columns.data();
+  const double* entries = basis_.values.row.data();
+  double* dw = direction_.dw.data();
   for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
     double sum = 0;
-    if (basis_.set.state[o] != ActiveSet::active && !direction_.dependent)
-      for (std::int32_t t = pattern.row_pointers[o]; t < pattern.row_pointers[o + 1]; ++t)
-        sum += basis_.values.row[t] * dx[pattern.row_columns[t]];
-    direction_.dw[o] = sum;
+    if (state[o] != ActiveSet::active && !direction_.dependent)
+      for (std::int32_t t = start[o]; t < start[o + 1]; ++t) sum += entries[t] * dx[columns[t]];
+    dw[o] = sum;
   }
   if (!direction_.dependent) direction_.dw[entering] = direction_.sign * direction_.schur * a;
   counts.work += pattern.row_pointers[island.last_row] - pattern.row_pointers[island.first_row];

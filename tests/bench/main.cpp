@@ -65,7 +65,7 @@ void simplex() {
     mlcp_analyze(solver, problem.get(), nullptr);
     mlcp_report updates{}, afresh{};
     const Pair t = alternate(
-        3, [&] { updates = solve(problem, solver, MLCP_REFACTORIZE_WHEN_NEEDED); },
+        contacts > 2000 ? 5 : 15, [&] { updates = solve(problem, solver, MLCP_REFACTORIZE_WHEN_NEEDED); },
         [&] { afresh = solve(problem, solver, MLCP_REFACTORIZE_ALWAYS); });
     std::printf("%10d %8lld %12.4f %12.4f %8.1f %12.1e %12.1e\n", contacts, static_cast<long long>(updates.pivots), t.a, t.b, t.b / t.a,
                 updates.largest_error, afresh.largest_error);
