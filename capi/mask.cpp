@@ -12,7 +12,7 @@ mlcp_status mlcp_mask_create(const mlcp_allocator* allocator, int32_t count, mlc
     Mask rows(memory);
     mask_resize(rows, count, state);
     mlcp_mask* handle = make_handle<mlcp_mask>(memory, memory);
-    handle->mask.state.swap(rows.state);
+    handle->mask.swap(rows);
     *mask = handle;
   });
 }
@@ -29,9 +29,9 @@ mlcp_status mlcp_mask_clone(const mlcp_allocator* allocator, const mlcp_mask* ma
     Mask rows(memory);
     rows.state.assign(from.mask.state.span());
     rows.key.assign(from.mask.key.span());
+    rows.impulse.assign(from.mask.impulse.span());
     mlcp_mask* handle = make_handle<mlcp_mask>(memory, memory);
-    handle->mask.state.swap(rows.state);
-    handle->mask.key.swap(rows.key);
+    handle->mask.swap(rows);
     *copy = handle;
   });
 }
@@ -59,6 +59,14 @@ const mlcp_row_state* mlcp_mask_states(const mlcp_mask* mask) {
 int32_t mlcp_mask_count(const mlcp_mask* mask, mlcp_row_state state) { return mask ? mask_count(mask->mask, state) : 0; }
 
 int32_t mlcp_mask_equal(const mlcp_mask* a, const mlcp_mask* b) { return a && b && mask_equal(a->mask, b->mask); }
+
+mlcp_status mlcp_mask_set_impulses(mlcp_mask* mask, int32_t first, int32_t count, const double* impulses) {
+  return edit(mask, [&](mlcp_mask& m) { mask_set_impulses(m.mask, first, count, impulses); });
+}
+
+mlcp_status mlcp_mask_get_impulses(const mlcp_mask* mask, int32_t first, int32_t count, double* impulses) {
+  return look(mask, [&](const mlcp_mask& m) { mask_get_impulses(m.mask, first, count, impulses); });
+}
 
 mlcp_status mlcp_mask_take_keys(mlcp_mask* mask, const mlcp_problem* problem) {
   return edit(mask, [&](mlcp_mask& m) {

@@ -353,11 +353,16 @@ MLCP_API int32_t mlcp_mask_count(const mlcp_mask *mask, mlcp_row_state state);
 /* 1 if both have the same states in the same order (keys do not matter), else 0. */
 MLCP_API int32_t mlcp_mask_equal(const mlcp_mask *a, const mlcp_mask *b);
 
+/* Impulses that go with the states, in N.s: where an iterative method starts. A mask that a solve returns has them; mlcp_mask_carry carries them
+ * too. get: MLCP_ERROR_STATE if the mask has none. set: rows outside the range get 0 if the mask had none. */
+MLCP_API mlcp_status mlcp_mask_set_impulses(mlcp_mask *mask, int32_t first, int32_t count, const double *impulses);
+MLCP_API mlcp_status mlcp_mask_get_impulses(const mlcp_mask *mask, int32_t first, int32_t count, double *impulses);
+
 /* Takes the keys of the problem's rows; the sizes must match. */
 MLCP_API mlcp_status mlcp_mask_take_keys(mlcp_mask *mask, const mlcp_problem *problem);
 
-/* Fills `mask` for the rows of `problem` from the states that rows with the same key had in `previous`; rows with a new key
- * or none get `otherwise`. Equal keys match in order of adding. Expected O(m). */
+/* Fills `mask` for the rows of `problem` from the states and impulses that rows with the same key had in `previous`; rows with a new key
+ * or none get `otherwise` and 0. Equal keys match in order of adding. Expected O(m). */
 MLCP_API mlcp_status mlcp_mask_carry(mlcp_mask *mask, const mlcp_problem *problem, const mlcp_mask *previous,
                                      mlcp_row_state otherwise);
 
@@ -368,8 +373,12 @@ typedef struct mlcp_solver mlcp_solver;
 
 typedef int32_t mlcp_method;
 enum {
-  MLCP_METHOD_AUTO = 0,   /* the library chooses */
-  MLCP_METHOD_SIMPLEX = 1 /* the paper's method, section 3: exact, finite */
+  MLCP_METHOD_AUTO = 0,    /* the library chooses, island by island */
+  MLCP_METHOD_SIMPLEX = 1, /* the paper's method, section 3: exact, finite, one row at a time */
+  MLCP_METHOD_NEWTON = 2,  /* many rows at a time: primal-dual active set, proximal with line search where needed; exact; falls back on
+                              the simplex; takes a positive semidefinite M where the solution is finite */
+  MLCP_METHOD_PGS = 3      /* projected Gauss-Seidel, for low accuracy: set a tolerance that it can reach. Islands whose mass couples more than
+                              64 velocities are solved by newton */
 };
 MLCP_API const char *mlcp_method_text(mlcp_method method);
 
@@ -385,6 +394,18 @@ enum {
   MLCP_REFACTORIZE_ALWAYS = 1       /* afresh at every pivot, as the historical code did: to compare */
 };
 
+/* Which impulses, where dependent rows leave a choice; v is the same for all. */
+typedef int32_t mlcp_impulses;
+enum {
+  MLCP_IMPULSES_ANY = 0,       /* those that the method ends with */
+  MLCP_IMPULSES_LEAST_NORM = 1 /* the least sum of a_i g_i^2, a as in the report: table legs carry equal loads; a second solve on such islands */
+};
+
+/* Fork and join over independent islands: calls task(data, index, worker) once for every index in 0 .. count - 1, on any threads in any
+ * order, and returns when all are done. worker: 0 .. on the caller's side, one per thread at a time. task may not be called afterwards. */
+typedef void (*mlcp_task)(void *data, int32_t index, int32_t worker);
+typedef void (*mlcp_parallel_for)(void *context, int32_t count, mlcp_task task, void *data);
+
 typedef struct mlcp_progress {
   size_t struct_size;
   double seconds;
@@ -395,8 +416,8 @@ typedef struct mlcp_progress {
   double violation;      /* largest violation in this island, relative as in the report */
 } mlcp_progress;
 
-/* Called now and then on the thread that solves; return 0 to go on, anything else to stop with MLCP_INTERRUPTED. Must not
- * call into the same solver. */
+/* Called now and then on the thread that called mlcp_solve, for the islands that it works on; return 0 to go on, anything else to stop all
+ * islands with MLCP_INTERRUPTED. Must not call into the same solver. */
 typedef int32_t (*mlcp_progress_callback)(void *context, const mlcp_progress *progress);
 
 typedef struct mlcp_settings {
@@ -406,11 +427,18 @@ typedef struct mlcp_settings {
   mlcp_refactorize refactorize;  /* WHEN_NEEDED */
   int32_t trace;                 /* != 0: record every pivot; 0 */
   double tolerance;              /* 1e-9, on the largest relative error of the report; > 0 */
-  int64_t max_iterations;        /* pivots an island; 0: 50 (rows + 10) */
-  int64_t max_work;              /* entries touched; 0: no limit. The same everywhere, unlike seconds. */
+  int64_t max_iterations;        /* an island: pivots, Newton steps or sweeps; 0: 50 (rows + 10) */
+  int64_t max_work;              /* entries touched, an island; 0: no limit. The same everywhere, unlike seconds. */
   double max_seconds;            /* 0: no limit */
   mlcp_progress_callback progress; /* NULL: none */
   void *progress_context;
+  mlcp_impulses impulses;        /* ANY */
+  int32_t canonical;             /* != 0: the answer is computed anew from its active set, so that warm and cold starts and all exact methods give the
+                                    same bits where active rows are independent and none is at zero by accident; one more analysis and factorization; 0 */
+  int32_t warm_start;            /* != 0: without a start mask, rows with keys start where the last solve left rows with the same key; 1 */
+  int32_t num_threads;           /* that solve islands, the caller's among them; 0: one a CPU; 1. The bits do not depend on it. */
+  mlcp_parallel_for parallel_for; /* the caller's threads instead of ours; NULL: none */
+  void *parallel_context;
 } mlcp_settings;
 
 MLCP_API void mlcp_settings_init(mlcp_settings *settings, size_t struct_size);
@@ -427,7 +455,7 @@ MLCP_API mlcp_status mlcp_solver_trim(mlcp_solver *solver);
 typedef struct mlcp_report {
   size_t struct_size;
   mlcp_outcome outcome;          /* the worst over the islands */
-  mlcp_method method;            /* the one that ran */
+  mlcp_method method;            /* the one that ran; AUTO: several did */
   /* errors recomputed from the problem's own numbers, rows left out by `enabled` excepted; not finite: INFINITY */
   double momentum_error;         /* max |Mv - J'g - k|_i / (|M||v| + |J|'|g| + |k|)_i over dynamic velocities */
   double constraint_error;       /* max |median(w, a(g - lo), a(g - hi))|_i / (|J|(|v| + |v0|) + |S||g| + |r|)_i,
@@ -443,7 +471,7 @@ typedef struct mlcp_report {
   int32_t enabled_rows;
   int32_t active_rows;
   int32_t redundant_rows;
-  int64_t pivots;                /* steps of the simplex */
+  int64_t pivots;                /* steps of the simplex, Newton steps, sweeps of Gauss-Seidel */
   int64_t toggles;               /* rows taken into or out of the factor along the elimination tree */
   int64_t factorizations;
   int64_t refinements;           /* steps of iterative refinement */
@@ -456,6 +484,8 @@ typedef struct mlcp_report {
   double seconds_report;         /* measuring the errors */
   int32_t analyzed;              /* 1 if this solve had to analyze */
   int32_t refactorized_for_drift;
+  int32_t warm;                  /* 1 if it started from a mask, given or found by keys */
+  int32_t fallbacks;             /* islands that newton or pgs gave up and another method solved */
 } mlcp_report;
 
 MLCP_API void mlcp_report_init(mlcp_report *report, size_t struct_size);
@@ -464,9 +494,10 @@ MLCP_API void mlcp_report_init(mlcp_report *report, size_t struct_size);
 MLCP_API mlcp_status mlcp_analyze(mlcp_solver *solver, const mlcp_problem *problem, const mlcp_mask *enabled);
 
 /* Solves. enabled: rows in state MLCP_ROW_DISABLED are left out; NULL: all rows count. start: the active set to start from,
- * e.g. the mask of the last step carried over; any will do; NULL: bilateral rows only. Both must be m long. The
- * outcome is in the report (may be NULL); the status only says whether the call could be made. Analysis is repeated only
- * when the pattern differs from the last one or rows are enabled that were not. */
+ * e.g. the mask of the last step carried over; any will do; NULL: what settings.warm_start finds by the rows' keys, else bilateral rows
+ * only. Both must be m long. The outcome is in the report (may be NULL); the status only says whether the call could be made. Analysis is
+ * repeated only when the pattern differs from the last one or rows are enabled that were not; then rows whose keys or bodies are known
+ * keep their places in the elimination order while that is as good as it was. */
 MLCP_API mlcp_status mlcp_solve(mlcp_solver *solver, const mlcp_problem *problem, const mlcp_mask *enabled,
                                 const mlcp_mask *start, mlcp_report *report);
 
@@ -477,8 +508,8 @@ MLCP_API mlcp_status mlcp_solver_impulses(const mlcp_solver *solver, const doubl
 MLCP_API mlcp_status mlcp_solver_slacks(const mlcp_solver *solver, const double **w, int32_t *count);
 /* States and keys of the rows at the end: the start of the next step. */
 MLCP_API mlcp_status mlcp_solver_mask(const mlcp_solver *solver, const mlcp_mask **mask);
-/* 1 for rows found dependent on active ones and therefore not factored (their impulse is at a bound or 0). None is looked for in
- * an island that a limit of work or time or the progress callback stopped. */
+/* 1 for rows found dependent on active ones: not factored (their impulse is at a bound or 0) or, by newton, sharing the load with
+ * them. None is looked for in an island that a limit of work or time or the progress callback stopped. */
 MLCP_API mlcp_status mlcp_solver_redundant(const mlcp_solver *solver, const uint8_t **redundant, int32_t *count);
 /* Copies in single precision; entries stride_bytes apart (0: packed). */
 MLCP_API mlcp_status mlcp_solver_read_velocities_f32(const mlcp_solver *solver, int32_t count, float *v, ptrdiff_t stride_bytes);
@@ -518,7 +549,7 @@ MLCP_API mlcp_status mlcp_solver_trace(const mlcp_solver *solver, const mlcp_piv
 
 /* A file that holds problem, settings, enabled mask, start and ordering, and replays to the same bits with the same build. Little
  * endian, compressed, with checksum; written beside the target and renamed, so that a full disk leaves an old file as it was. solver:
- * gives settings and ordering, NULL for the defaults; masks may be NULL. */
+ * gives settings and ordering, and without a start mask the start that its last solve found by keys; NULL for the defaults; masks may be NULL. */
 MLCP_API mlcp_status mlcp_snapshot_save(const char *path, const mlcp_problem *problem, const mlcp_solver *solver,
                                         const mlcp_mask *enabled, const mlcp_mask *start, char *message, size_t message_size);
 /* The same as bytes: size is set to what is needed; buffer may be NULL to ask for it; MLCP_ERROR_RANGE if capacity is too small. */

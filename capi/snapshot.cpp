@@ -23,14 +23,14 @@ void check_bytes(const void* bytes, size_t size) {
 
 SnapshotSource source_of(const Problem& problem, const mlcp_solver* solver, const Settings& defaults, const mlcp_mask* enabled,
                          const mlcp_mask* start) {
+  const Mask* carried = solver ? solver->solver.carried_start(problem) : nullptr;
   return {problem, solver ? solver->solver.settings() : defaults,
-          solver ? solver->solver.ordering() : std::span<const int32_t>{}, mask_of(enabled), mask_of(start)};
+          solver ? solver->solver.ordering() : std::span<const int32_t>{}, mask_of(enabled), start ? &start->mask : carried};
 }
 
 mlcp_mask* make_mask(const Memory& memory, Mask& from) {
   mlcp_mask* handle = make_handle<mlcp_mask>(memory, memory);
-  handle->mask.state.swap(from.state);
-  handle->mask.key.swap(from.key);
+  handle->mask.swap(from);
   return handle;
 }
 

@@ -83,8 +83,7 @@ const char* mlcp_solver_error(const mlcp_solver* solver) { return solver ? solve
 mlcp_status mlcp_solver_trim(mlcp_solver* solver) {
   return edit(solver, [](mlcp_solver& s) {
     s.solver.trim();
-    s.lent.mask.state.trim();
-    s.lent.mask.key.trim();
+    s.lent.mask.trim();
   });
 }
 
@@ -107,11 +106,12 @@ mlcp_status mlcp_solve(mlcp_solver* solver, const mlcp_problem* problem, const m
     mlcp_report full{};
     full.struct_size = sizeof full;
     // start may be the mask that this solver lends, so that changes only afterwards
-    s.lent.mask.state.reserve(problem->problem.m());
-    s.lent.mask.key.reserve(problem->problem.m());
+    s.lent.mask.reserve(problem->problem.m());
     s.solver.solve(problem->problem, mask_of(enabled), mask_of(start), full);
-    s.lent.mask.state.assign(s.solver.result().mask.state.span());
-    s.lent.mask.key.assign(s.solver.result().mask.key.span());
+    const Mask& mask = s.solver.result().mask;
+    s.lent.mask.state.assign(mask.state.span());
+    s.lent.mask.key.assign(mask.key.span());
+    s.lent.mask.impulse.assign(mask.impulse.span());
     if (report) export_struct(full, report);
   });
 }

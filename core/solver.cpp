@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <memory>
 #include <new>
+#include <thread>
 
-#include "analyze/analysis.h"
 #include "measure/errors.h"
-#include "solve/basis.h"
-#include "solve/redundancy.h"
-#include "solve/simplex.h"
+#include "stage.h"
 
 namespace mlcp {
 namespace {
@@ -27,20 +25,6 @@ int severity(mlcp_outcome outcome) {
   }
 }
 
-/// Stopped from outside: time spent afterwards is not wanted.
-bool cut_short(mlcp_outcome outcome) {
-  return outcome == MLCP_WORK_LIMIT || outcome == MLCP_TIME_LIMIT || outcome == MLCP_INTERRUPTED;
-}
-
-mlcp_row_state row_state(std::uint8_t state) {
-  switch (state) {
-    case ActiveSet::at_lower: return MLCP_ROW_AT_LOWER;
-    case ActiveSet::at_upper: return MLCP_ROW_AT_UPPER;
-    case ActiveSet::disabled: return MLCP_ROW_DISABLED;
-    default: return MLCP_ROW_ACTIVE;
-  }
-}
-
 void check_mask(const Mask* mask, const Problem& problem, const char* name) {
   if (mask && static_cast<std::int32_t>(mask->state.size()) != problem.m())
     throw Error(MLCP_ERROR_RANGE, "%s has %zu rows, the problem has %d", name, mask->state.size(), problem.m());
@@ -51,23 +35,28 @@ void check_mask(const Mask* mask, const Problem& problem, const char* name) {
 struct Solver::State {
   Memory memory;
   Settings settings;
-  Analysis analysis;
-  Basis basis;
-  Simplex simplex;
+  Stage main;
+  Stage exact;  ///< rows after velocities everywhere: for islands that newton gave up in another order, and for canonical answers
+  Pool pool;
   Measure measure;
   Result result;
   Array<std::int32_t> imposed;
+  Mask carried;  ///< the start that keys gave
+  CarryWorkspace carry;
+  Mask given_up;  ///< rows of the islands that go to the exact stage
   Errors errors;
   std::int32_t indefinite = -1;  ///< the velocity whose pivot is not positive
 
   State(const Settings& s, const Memory& m)
-      : memory(m), settings(s), analysis(m), basis(m), simplex(m, basis), measure(m), result(m), imposed(m) {}
+      : memory(m), settings(s), main(m), exact(m), pool(m), measure(m), result(m), imposed(m), carried(m), carry(m), given_up(m) {}
 
   bool analyze(const Problem& problem, const Mask* enabled);
-  void solve_islands(const Problem& problem, Limits& limits, Counts& counts);
+  const Mask* find_start(const Problem& problem);
   void solve_free_velocities(const Problem& problem);
-  void keep_certificate(std::int32_t island);
+  void read_ends(const Stage& stage, const Problem& problem, bool only_rows, mlcp_report& report, Counts& counts);
   void collect(const Problem& problem);
+  void rescue(const SolveInput& input, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts);
+  void make_canonical(const SolveInput& input);
   void judge(const Problem& problem, const Mask* enabled);
   void fill(const Problem& problem, mlcp_report& report, const Counts& counts) const;
 };
@@ -93,89 +82,123 @@ void Solver::set_settings(const Settings& settings) {
   state_->settings = settings;
 }
 
-std::span<const std::int32_t> Solver::ordering() const { return state_->analysis.ordering.order.span(); }
+std::span<const std::int32_t> Solver::ordering() const { return state_->main.analysis.ordering.order.span(); }
 void Solver::impose_ordering(std::span<const std::int32_t> ordering) { state_->imposed.assign(ordering); }
+
+const Mask* Solver::carried_start(const Problem& problem) const {
+  const Mask& mask = state_->carried;
+  return !mask.state.empty() && static_cast<std::int32_t>(mask.state.size()) == problem.m() ? &mask : nullptr;
+}
 
 bool Solver::State::analyze(const Problem& problem, const Mask* enabled) {
   check_mask(enabled, problem, "enabled");
-  if (imposed.empty() && analysis.covers(problem, enabled)) return false;
-  analysis.run(problem, enabled, imposed.span());
+  const bool rows_last = settings.method == MLCP_METHOD_SIMPLEX;
+  if (imposed.empty() && main.analysis.covers(problem, enabled, rows_last)) return false;
+  main.analysis.run(problem, enabled, rows_last, imposed.span());
   imposed.clear();
   return true;
 }
 
 void Solver::analyze(const Problem& problem, const Mask* enabled) { state_->analyze(problem, enabled); }
 
-void Solver::State::keep_certificate(std::int32_t island) {
-  result.certificates.push_back({island, static_cast<std::int32_t>(result.certificate_row.size()),
-                                 static_cast<std::int32_t>(simplex.certificate_row.size())});
-  for (const std::int32_t i : simplex.certificate_row) result.certificate_row.push_back(i);
-  for (const double y : simplex.certificate_y) result.certificate_y.push_back(y);
-}
-
-void Solver::State::solve_islands(const Problem& problem, Limits& limits, Counts& counts) {
-  const auto& islands = analysis.symbolic.islands;
-  result.island_outcome.assign(islands.size(), MLCP_SOLVED);
-  for (std::size_t s = 0; s < islands.size(); ++s) {
-    const Island& island = islands[s];
-    const auto index = static_cast<std::int32_t>(s);
-    limits.enter_island(index, island.last_row - island.first_row);
-    mlcp_outcome outcome = simplex.solve(island, index, limits, counts, settings.trace ? &result.trace : nullptr);
-    if (outcome == MLCP_INFEASIBLE) {
-      keep_certificate(index);
-      limits.enter_island(index, island.last_row - island.first_row);
-      simplex.settle(island, limits, counts);
-    } else if (outcome == MLCP_NOT_POSITIVE_DEFINITE) {
-      indefinite = analysis.pattern.node[basis.factor.failed_position()];
-    } else if (!cut_short(outcome)) {
-      mark_redundant(island, basis, problem.n(), result.redundant.data(), counts);
-    }
-    result.island_outcome[s] = outcome;
-  }
+/// Where rows with the same key were left; NULL if there are none.
+const Mask* Solver::State::find_start(const Problem& problem) {
+  carried.state.clear();
+  if (!settings.warm_start || !result.valid) return nullptr;
+  const auto keyed = [](const Array<std::uint64_t>& keys) { return std::any_of(keys.begin(), keys.end(), [](std::uint64_t k) { return k != 0; }); };
+  if (!keyed(problem.key) || !keyed(result.mask.key)) return nullptr;
+  mask_carry(carried, problem, result.mask, MLCP_ROW_AT_LOWER, carry);
+  return &carried;
 }
 
 /// v = k / M where nothing couples to anything.
 void Solver::State::solve_free_velocities(const Problem& problem) {
-  for (const std::int32_t j : analysis.ordering.free_velocity) {
+  for (const std::int32_t j : main.analysis.ordering.free_velocity) {
     const double mass = problem.mass.values[problem.mass.pointers[j]];
     if (!(mass > 0)) indefinite = j;
     result.v[j] = mass > 0 ? problem.momentum[j] / mass : 0;
   }
 }
 
+/// Outcomes, certificates and counts of the islands that a stage has solved.
+void Solver::State::read_ends(const Stage& stage, const Problem& problem, bool only_rows, mlcp_report& report, Counts& counts) {
+  const KktPattern& pattern = stage.analysis.pattern;
+  const auto& islands = stage.analysis.symbolic.islands;
+  for (std::size_t s = 0; s < islands.size(); ++s) {
+    const Island& island = islands[s];
+    const IslandEnd& end = stage.ends[s];
+    if (only_rows && island.first_row == island.last_row) continue;
+    const auto index = only_rows ? result.row_island[pattern.node[pattern.row_position[island.first_row]] - problem.n()] : static_cast<std::int32_t>(s);
+    result.island_outcome[index] = end.outcome;
+    counts += end.counts;
+    report.fallbacks += end.gave_up;
+    if (island.first_row < island.last_row) report.method = report.method < 0 || report.method == end.method ? end.method : MLCP_METHOD_AUTO;
+    if (end.indefinite >= 0) indefinite = pattern.node[end.indefinite];
+    if (end.certificate_rows == 0) continue;
+    result.certificates.push_back({index, static_cast<std::int32_t>(result.certificate_row.size()), end.certificate_rows});
+    for (std::int32_t t = 0; t < end.certificate_rows; ++t) {
+      result.certificate_row.push_back(stage.basis.work.certificate_row[island.first_row + t]);
+      result.certificate_y.push_back(stage.basis.work.certificate_y[island.first_row + t]);
+    }
+  }
+}
+
 /// From elimination order back to the caller's.
 void Solver::State::collect(const Problem& problem) {
   const std::int32_t n = problem.n(), m = problem.m();
-  const KktPattern& pattern = analysis.pattern;
   for (std::int32_t j = 0; j < n; ++j)
     if (problem.prescribed(j)) result.v[j] = problem.given_velocity[j];
-  result.row_island.assign(m, -1);
   result.mask.state.assign(m, MLCP_ROW_DISABLED);
   result.mask.key.assign(problem.key.span());
   result.gamma.assign(m, 0.0);
-  const auto& islands = analysis.symbolic.islands;
-  for (std::size_t s = 0; s < islands.size(); ++s) {
-    for (std::int32_t p = islands[s].first; p < islands[s].last; ++p) {
-      const std::int32_t node = pattern.node[p];
-      if (node < n) {
-        result.v[node] = basis.set.x[p];
-        continue;
-      }
-      const std::uint8_t state = basis.set.state[pattern.row_ordinal[p]];
-      if (state == ActiveSet::disabled) continue;
-      result.row_island[node - n] = static_cast<std::int32_t>(s);
-      result.mask.state[node - n] = row_state(state);
-      result.gamma[node - n] = basis.set.x[p] == 0 ? 0.0 : -basis.set.x[p];
-    }
+  main.collect(problem, false, result);
+}
+
+/// Crowded islands that newton has given up: from where it got to, by the pivoting method.
+void Solver::State::rescue(const SolveInput& input, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts) {
+  const Problem& problem = input.problem;
+  given_up.state.assign(problem.m(), MLCP_ROW_DISABLED);
+  bool any = false;
+  for (std::int32_t i = 0; i < problem.m(); ++i) {
+    if (result.row_island[i] < 0 || !main.ends[result.row_island[i]].crowded) continue;
+    given_up.state[i] = MLCP_ROW_ACTIVE;
+    any = true;
   }
+  if (!any) return;
+  Settings pivoting = settings;
+  pivoting.method = MLCP_METHOD_SIMPLEX;
+  const SolveInput part{problem, &given_up, pivoting};
+  exact.analysis.run(problem, &given_up, true, {});
+  exact.load(part, &result.mask);
+  exact.solve(part, watch, crew, false, result);
+  read_ends(exact, problem, true, report, counts);
+  exact.collect(problem, true, result);
+}
+
+/// The answer from the active set alone: ordered, factored and solved as if nothing had been before. Kept if it is as good as what there is.
+void Solver::State::make_canonical(const SolveInput& input) {
+  exact.analysis.run(input.problem, input.enabled, true, {});
+  exact.load(input, &result.mask);
+  if (!exact.settle(input)) return;
+  const double before = errors.largest();
+  given_up.state.assign(result.mask.state.span());
+  given_up.impulse.assign(result.gamma.span());
+  measure.velocity_error.resize(input.problem.n());
+  carry.rows.impulse.assign(result.v.span());
+  exact.collect(input.problem, false, result);
+  const Errors now = measure.run(input.problem, input.enabled, result.v.span(), result.gamma.span());
+  if (now.largest() <= std::max(settings.tolerance, before)) return;
+  result.v.assign(carry.rows.impulse.span());
+  result.gamma.assign(given_up.impulse.span());
+  result.mask.state.assign(given_up.state.span());
 }
 
 /// Success is what the caller's own numbers say, island by island; an error within the tolerance is a solution whatever stopped the method.
 void Solver::State::judge(const Problem& problem, const Mask* enabled) {
   errors = measure.run(problem, enabled, result.v.span(), result.gamma.span());
   result.w.assign(measure.w.span());
-  const KktPattern& pattern = analysis.pattern;
-  const auto& islands = analysis.symbolic.islands;
+  const KktPattern& pattern = main.analysis.pattern;
+  const auto& islands = main.analysis.symbolic.islands;
   for (std::size_t s = 0; s < islands.size(); ++s) {
     double worst = 0;
     for (std::int32_t p = islands[s].first; p < islands[s].last; ++p) {
@@ -200,7 +223,7 @@ void Solver::State::fill(const Problem& problem, mlcp_report& report, const Coun
     if (severity(o) > severity(report.outcome)) report.outcome = o;
   }
   if (report.outcome == MLCP_SOLVED && !(errors.largest() <= settings.tolerance)) report.outcome = MLCP_ITERATION_LIMIT;
-  report.method = MLCP_METHOD_SIMPLEX;
+  if (report.method < 0) report.method = settings.method == MLCP_METHOD_AUTO ? MLCP_METHOD_SIMPLEX : settings.method;
   report.momentum_error = errors.momentum;
   report.constraint_error = errors.constraints;
   report.largest_error = errors.largest();
@@ -220,41 +243,62 @@ void Solver::State::fill(const Problem& problem, mlcp_report& report, const Coun
   report.factorizations = counts.factorizations;
   report.refinements = counts.refinements;
   report.work = counts.work;
-  report.factor_entries = analysis.symbolic.entries();
+  report.factor_entries = main.analysis.symbolic.entries();
   report.seconds_factorize = counts.seconds_factorize;
   report.refactorized_for_drift = counts.drifts;
 }
 
 void Solver::solve(const Problem& problem, const Mask* enabled, const Mask* start, mlcp_report& report) {
   State& s = *state_;
+  check_mask(enabled, problem, "enabled");
   check_mask(start, problem, "start");
+  if (!start) start = s.find_start(problem);
   s.result.valid = false;
-  Limits limits(s.settings);
+  s.pool.resize(s.settings.parallel_for ? 1 : s.settings.num_threads > 0 ? s.settings.num_threads : static_cast<std::int32_t>(std::max(1u, std::thread::hardware_concurrency())));
+  Watch watch(s.settings);
+  Crew crew(s.settings, s.pool);
+  const SolveInput input{problem, enabled, s.settings};
   const bool analyzed = s.analyze(problem, enabled);
-  const double after_analysis = limits.seconds();
-  limits.set_islands(static_cast<std::int32_t>(s.analysis.symbolic.islands.size()));
+  const double after_analysis = watch.seconds();
 
   Counts counts;
   s.indefinite = -1;
+  report.fallbacks = 0;
+  report.method = -1;
   s.result.v.assign(problem.n(), 0.0);
   s.result.redundant.assign(problem.m(), 0);
   s.result.trace.clear();
   s.result.certificates.clear();
   s.result.certificate_row.clear();
   s.result.certificate_y.clear();
-  s.basis.prepare(problem, s.analysis, s.settings);
-  s.basis.set.start(problem, s.analysis.pattern, s.basis.values, enabled, start);
-  s.simplex.prepare(problem, enabled, s.settings);
+  s.result.island_outcome.assign(s.main.analysis.symbolic.islands.size(), MLCP_SOLVED);
+  s.result.row_island.assign(problem.m(), -1);
+  const auto& islands = s.main.analysis.symbolic.islands;
+  for (std::size_t i = 0; i < islands.size(); ++i)
+    for (std::int32_t o = islands[i].first_row; o < islands[i].last_row; ++o) {
+      const std::int32_t row = s.main.analysis.pattern.node[s.main.analysis.pattern.row_position[o]] - problem.n();
+      if (!enabled || enabled->state[row] != MLCP_ROW_DISABLED) s.result.row_island[row] = static_cast<std::int32_t>(i);
+    }
+
+  s.main.load(input, start);
+  s.main.solve(input, watch, crew, start != nullptr, s.result);
+  s.read_ends(s.main, problem, false, report, counts);
   s.solve_free_velocities(problem);
-  s.solve_islands(problem, limits, counts);
-  const double after_solve = limits.seconds();
   s.collect(problem);
+  s.rescue(input, watch, crew, report, counts);
+  const double after_solve = watch.seconds();
   s.judge(problem, enabled);
+  if (s.settings.canonical) {
+    s.make_canonical(input);
+    s.judge(problem, enabled);
+  }
+  s.result.mask.impulse.assign(s.result.gamma.span());
   s.fill(problem, report, counts);
+  report.warm = start != nullptr;
   report.analyzed = analyzed;
   report.seconds_analyze = analyzed ? after_analysis : 0;
   report.seconds_solve = after_solve - after_analysis - counts.seconds_factorize;
-  report.seconds = limits.seconds();
+  report.seconds = watch.seconds();
   report.seconds_report = report.seconds - after_solve;
   s.result.valid = true;
 }
@@ -263,14 +307,12 @@ void Solver::solve(const Problem& problem, const Mask* enabled, const Mask* star
 void Solver::trim() {
   State& s = *state_;
   s.imposed.assign(ordering());
-  std::destroy_at(&s.simplex);
-  std::destroy_at(&s.basis);
-  std::destroy_at(&s.analysis);
+  for (Stage* stage : {&s.main, &s.exact}) {
+    std::destroy_at(stage);
+    std::construct_at(stage, s.memory);
+  }
   std::destroy_at(&s.measure);
   std::construct_at(&s.measure, s.memory);
-  std::construct_at(&s.analysis, s.memory);
-  std::construct_at(&s.basis, s.memory);
-  std::construct_at(&s.simplex, s.memory, s.basis);
 }
 
 }  // namespace mlcp

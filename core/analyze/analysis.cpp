@@ -13,8 +13,8 @@ bool same(const Array<std::int32_t>& a, const Array<std::int32_t>& b) {
 
 }  // namespace
 
-bool Analysis::covers(const Problem& problem, const Mask* enabled) const {
-  if (!done_ || selection.velocity.size() != problem.momentum.size() || selection.row.size() != problem.r.size()) return false;
+bool Analysis::covers(const Problem& problem, const Mask* enabled, bool exact) const {
+  if (!done_ || exact != exact_ || selection.velocity.size() != problem.momentum.size() || selection.row.size() != problem.r.size()) return false;
   for (std::int32_t j = 0; j < problem.n(); ++j)
     if (static_cast<bool>(selection.velocity[j]) == problem.prescribed(j)) return false;
   std::int32_t analyzed = 0, used = 0;
@@ -39,10 +39,12 @@ void Analysis::remember(const Problem& problem) {
   sigma_indices_.assign(problem.compliance.indices.span());
 }
 
-void Analysis::run(const Problem& problem, const Mask* enabled, std::span<const std::int32_t> imposed) {
+void Analysis::run(const Problem& problem, const Mask* enabled, bool exact, std::span<const std::int32_t> imposed) {
   done_ = false;
+  exact_ = exact;
   selection.take(problem, enabled);
-  if (imposed.empty() || !ordering.accept(problem, selection, imposed)) ordering.compute(problem, selection);
+  crowding.find(problem, selection, exact);
+  if (imposed.empty() || !ordering.accept(problem, selection, crowding, imposed)) ordering.compute(problem, selection, crowding);
   pattern.build(problem, ordering.order.span());
   tree.build(pattern);
   tree.postorder(sequence_);
@@ -52,7 +54,8 @@ void Analysis::run(const Problem& problem, const Mask* enabled, std::span<const 
     pattern.build(problem, ordering.order.span());
     tree.build(pattern);
   }
-  symbolic.build(pattern, tree);
+  symbolic.build(pattern, tree, crowding);
+  parts.build(pattern);
   assert(check_analysis(*this));
   remember(problem);
   done_ = true;

@@ -3,12 +3,14 @@
 namespace mlcp {
 namespace {
 
-bool check_order(const KktPattern& pattern) {
+bool check_order(const KktPattern& pattern, const Crowding& crowding) {
   for (std::int32_t p = 0; p < pattern.size(); ++p)
     if (pattern.position[pattern.node[p]] != p) return false;
-  for (std::int32_t o = 0; o < pattern.rows(); ++o)
+  for (std::int32_t o = 0; o < pattern.rows(); ++o) {
+    if (crowding.crowded[pattern.node[pattern.row_position[o]]]) continue;
     for (std::int32_t t = pattern.row_pointers[o]; t < pattern.row_pointers[o + 1]; ++t)
       if (!pattern.is_row(pattern.row_columns[t]) && pattern.row_columns[t] > pattern.row_position[o]) return false;
+  }
   return true;
 }
 
@@ -48,7 +50,7 @@ bool check_islands(const Symbolic& symbolic) {
 }  // namespace
 
 bool check_analysis(const Analysis& analysis) {
-  return check_order(analysis.pattern) && check_columns(analysis.symbolic) && check_runs(analysis.symbolic) &&
+  return check_order(analysis.pattern, analysis.crowding) && check_columns(analysis.symbolic) && check_runs(analysis.symbolic) &&
          check_islands(analysis.symbolic);
 }
 

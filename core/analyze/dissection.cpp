@@ -84,6 +84,10 @@ bool Dissection::split(const QuotientGraph& g, Piece piece) {
     stack_.push_back({rest, piece.last, piece.parent});
     return true;
   }
+  // velocities come first among the variables; a part that has some is no chain of bodies, and minimum degree serves it better
+  const auto velocities = static_cast<std::int32_t>(g.own_pointers.size()) - 1;
+  for (std::int32_t s = piece.first; s < piece.last; ++s)
+    if (sequence_[s] < velocities) return false;
   search(g, far, label);
   const auto levels = static_cast<std::int32_t>(level_start_.size()) - 1;
   std::int32_t middle = -1;
@@ -120,13 +124,11 @@ void Dissection::cut(const QuotientGraph& g) {
   sequence_.resize(g.variables);
   for (std::int32_t x = 0; x < g.variables; ++x) sequence_[x] = x;
   stack_.clear();
-  // the velocities of large bodies come first among the variables; then rows must wait for them and nothing is cut
-  const bool large = g.own_pointers.size() > 1;
   if (g.variables) stack_.push_back({0, g.variables, -1});
   while (!stack_.empty()) {
     const Piece piece = stack_.back();
     stack_.pop_back();
-    if (large || piece.last - piece.first <= leaf_size || !split(g, piece)) leaf(piece);
+    if (piece.last - piece.first <= leaf_size || !split(g, piece)) leaf(piece);
   }
   below.assign(parent.size(), 0);
   for (const std::int32_t t : home)

@@ -49,7 +49,7 @@ void MinimumDegree::load(const QuotientGraph& g, const Dissection& d) {
     length_[id] = degree_[id] = g.element_pointers[e + 1] - g.element_pointers[e];
     for (std::int32_t s = g.element_pointers[e]; s < g.element_pointers[e + 1]; ++s) iw_[free_++] = g.element_variables[s];
   }
-  for (const std::int32_t row : g.own_rows) ++pending_[row];
+  for (const std::int32_t row : g.own_rows) pending_[row] += g.waits[row];
   tree_.assign(d.below.span());
   tree_pointers_.assign(d.below.size() + 1, 0);
   for (const std::int32_t t : d.home) ++tree_pointers_[t + 1];
@@ -270,7 +270,8 @@ void MinimumDegree::eliminate(std::int32_t i, const QuotientGraph& g, const Diss
     order.push_back(x);
     --left_;
     if (x < velocities)
-      for (std::int32_t t = g.own_pointers[x]; t < g.own_pointers[x + 1]; ++t) release(g.own_rows[t]);
+      for (std::int32_t t = g.own_pointers[x]; t < g.own_pointers[x + 1]; ++t)
+        if (g.waits[g.own_rows[t]]) release(g.own_rows[t]);
     for (std::int32_t a = d.parent[d.home[x]]; a >= 0; a = d.parent[a])
       if (--tree_[a] == 0)
         for (std::int32_t t = tree_pointers_[a]; t < tree_pointers_[a + 1]; ++t) release(tree_variables_[t]);

@@ -17,11 +17,11 @@ void Ordering::collect_free(const Problem& problem, const Selection& selection) 
   }
 }
 
-void Ordering::compute(const Problem& problem, const Selection& selection) {
+void Ordering::compute(const Problem& problem, const Selection& selection, const Crowding& crowding) {
   const std::int32_t n = problem.n();
   const SparseView jacobian = problem.jacobian_view();
   collect_free(problem, selection);
-  graph_.build(problem, selection);
+  graph_.build(problem, selection, crowding);
   dissection_.cut(graph_);
   degree_.run(graph_, dissection_);
 
@@ -54,7 +54,7 @@ void Ordering::compute(const Problem& problem, const Selection& selection) {
   for (std::int32_t e = 0; e < graph_.elements; ++e) place_element(e);
 }
 
-bool Ordering::accept(const Problem& problem, const Selection& selection, std::span<const std::int32_t> imposed) {
+bool Ordering::accept(const Problem& problem, const Selection& selection, const Crowding& crowding, std::span<const std::int32_t> imposed) {
   const std::int32_t n = problem.n(), m = problem.m();
   const SparseView jacobian = problem.jacobian_view();
   collect_free(problem, selection);
@@ -63,7 +63,7 @@ bool Ordering::accept(const Problem& problem, const Selection& selection, std::s
   if (imposed.size() != needed) return false;
   for (const std::int32_t node : imposed) {
     if (node < 0 || node >= n + m || !selection.has(node) || placed_[node]) return false;
-    if (node >= n)
+    if (node >= n && !crowding.crowded[node])
       for (std::int32_t t = jacobian.pointers[node - n]; t < jacobian.pointers[node - n + 1]; ++t)
         if (const std::int32_t j = jacobian.indices[t]; selection.velocity[j] && !placed_[j]) return false;
     placed_[node] = 1;

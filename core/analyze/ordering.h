@@ -7,14 +7,14 @@ namespace mlcp {
 
 /// Fill-reducing elimination order of the KKT matrix in which every row comes after all velocities that it touches: then its pivot is
 /// −(Σ + J M⁻¹Jᵀ) reduced by the rows before it, of one sign, and no ε is needed (paper-free form of §3.2: rows may interleave
-/// with bodies, the paper has them last).
+/// with bodies, the paper has them last). In crowded islands any order will do.
 class Ordering {
  public:
   explicit Ordering(const Memory& m) : order(m), free_velocity(m), graph_(m), dissection_(m), degree_(m), placed_(m), members_(m), member_pointers_(m) {}
 
-  void compute(const Problem& problem, const Selection& selection);
-  /// Takes the caller's order if it holds exactly the nodes that compute would order, rows after their velocities.
-  bool accept(const Problem& problem, const Selection& selection, std::span<const std::int32_t> imposed);
+  void compute(const Problem& problem, const Selection& selection, const Crowding& crowding);
+  /// Takes the caller's order if it holds exactly the nodes that compute would order, rows after their velocities where these are not crowded.
+  bool accept(const Problem& problem, const Selection& selection, const Crowding& crowding, std::span<const std::int32_t> imposed);
 
   Array<std::int32_t> order;          ///< nodes
   Array<std::int32_t> free_velocity;  ///< velocities with a diagonal mass that no row touches: v = k / M, not in the order

@@ -1,34 +1,27 @@
 #include "analyze/quotient_graph.h"
 
+#include "analyze/union_find.h"
+
 namespace mlcp {
 namespace {
 
 /// Connected parts of M of at most this many velocities become elements: their own factor is at most this dense triangle.
 constexpr std::int32_t small_part = 12;
 
-std::int32_t find(Array<std::int32_t>& parent, std::int32_t i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
-}
-
 /// Connected components of M over the selected velocities: component[j] = smallest velocity of j's component.
 void mass_components(const Problem& problem, const Selection& selection, Array<std::int32_t>& component) {
   const SparseView mass = problem.mass_view();
-  component.resize(problem.n());
-  for (std::int32_t j = 0; j < problem.n(); ++j) component[j] = j;
+  start_sets(component, problem.n());
   for (std::int32_t j = 0; j < problem.n(); ++j) {
     if (!selection.velocity[j]) continue;
-    for (std::int32_t t = mass.pointers[j]; t < mass.pointers[j + 1]; ++t) {
-      const std::int32_t a = find(component, mass.indices[t]), b = find(component, j);
-      component[std::max(a, b)] = std::min(a, b);
-    }
+    for (std::int32_t t = mass.pointers[j]; t < mass.pointers[j + 1]; ++t) join(component, j, mass.indices[t]);
   }
-  for (std::int32_t j = 0; j < problem.n(); ++j) component[j] = find(component, j);
+  for (std::int32_t j = 0; j < problem.n(); ++j) component[j] = root_of(component, j);
 }
 
 }  // namespace
 
-void QuotientGraph::build(const Problem& problem, const Selection& selection) {
+void QuotientGraph::build(const Problem& problem, const Selection& selection, const Crowding& crowding) {
   const std::int32_t n = problem.n(), m = problem.m();
   const SparseView mass = problem.mass_view(), jacobian = problem.jacobian_view(), sigma = problem.compliance_view();
   mass_components(problem, selection, component);
@@ -41,7 +34,7 @@ void QuotientGraph::build(const Problem& problem, const Selection& selection) {
   elements = 0;
   for (std::int32_t j = 0; j < n; ++j) {
     if (!selection.velocity[j]) continue;
-    if (count[component[j]] <= small_part) {
+    if (count[component[j]] <= small_part && !crowding.crowded[j]) {
       element_of[j] = component[j] == j ? elements++ : element_of[component[j]];
     } else {
       variable_of[j] = static_cast<std::int32_t>(node.size());
@@ -55,6 +48,8 @@ void QuotientGraph::build(const Problem& problem, const Selection& selection) {
     node.push_back(n + i);
   }
   variables = static_cast<std::int32_t>(node.size());
+  waits.assign(variables, 0);
+  for (std::int32_t x = velocities; x < variables; ++x) waits[x] = !crowding.crowded[node[x]];
 
   // variable → elements, and velocity variable → rows; the marks keep one entry each
   scratch.assign(elements, -1);

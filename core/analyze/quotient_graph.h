@@ -1,11 +1,11 @@
 #pragma once
-#include "analyze/selection.h"
+#include "analyze/crowding.h"
 
 namespace mlcp {
 
 /// The graph that is ordered. Its variables are the rows and the velocities of large bodies; the velocities of a small body, or of
 /// a small connected part of M, are eliminated before any row that touches them, so that they appear only as the clique of their
-/// rows, an element in the sense of Amestoy, Davis & Duff (1996). A need not be formed.
+/// rows, an element in the sense of Amestoy, Davis & Duff (1996). A need not be formed. In crowded islands every velocity is a variable.
 ///
 /// lists of variable i: elements[..] then neighbours[..]; lists of element e: its variables.
 struct QuotientGraph {
@@ -16,17 +16,18 @@ struct QuotientGraph {
   Array<std::int32_t> element_pointers, element_variables;    ///< element → its variables
   Array<std::int32_t> variable_pointers, variable_elements;   ///< variable → its elements
   Array<std::int32_t> neighbour_pointers, neighbours;         ///< variable → adjacent variables
-  /// Velocities of a row that are variables themselves: the row must come after all of them.
+  /// Velocities of a row that are variables themselves: a row that waits comes after all of them.
   Array<std::int32_t> own_pointers, own_rows;  ///< variable that is a velocity → rows (variables) that touch it
+  Array<std::uint8_t> waits;  ///< by variable
   Array<std::int32_t> component, scratch, count;
 
   explicit QuotientGraph(const Memory& m)
       : node(m), element_of(m), variable_of(m), element_pointers(m), element_variables(m), variable_pointers(m),
-        variable_elements(m), neighbour_pointers(m), neighbours(m), own_pointers(m), own_rows(m), component(m), scratch(m),
+        variable_elements(m), neighbour_pointers(m), neighbours(m), own_pointers(m), own_rows(m), waits(m), component(m), scratch(m),
         count(m) {}
 
   /// cost: O(entries of M, J and Σ).
-  void build(const Problem& problem, const Selection& selection);
+  void build(const Problem& problem, const Selection& selection, const Crowding& crowding);
 };
 
 }  // namespace mlcp

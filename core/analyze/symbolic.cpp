@@ -2,7 +2,7 @@
 
 namespace mlcp {
 
-void Symbolic::build(const KktPattern& pattern, const EliminationTree& tree) {
+void Symbolic::build(const KktPattern& pattern, const EliminationTree& tree, const Crowding& crowding) {
   const std::int32_t size = pattern.size();
   parent.assign(tree.parent.span());
   const auto for_each_entry = [&](auto visit) {
@@ -33,12 +33,16 @@ void Symbolic::build(const KktPattern& pattern, const EliminationTree& tree) {
   run_start.resize(size);
   for (std::int32_t p = 0; p < size; ++p) run_start[p] = p > 0 && run_end[p - 1] == run_end[p] ? run_start[p - 1] : p;
 
+  path_entries.resize(size);
+  for (std::int32_t p = size - 1; p >= 0; --p)
+    path_entries[p] = pointers[p + 1] - pointers[p] + (parent[p] >= 0 ? path_entries[parent[p]] : 0);
+
   islands.clear();
   std::int32_t first = 0, first_row = 0, row = 0;
   for (std::int32_t p = 0; p < size; ++p) {
     row += pattern.is_row(p);
     if (parent[p] >= 0) continue;
-    islands.push_back({first, p + 1, first_row, row});
+    islands.push_back({first, p + 1, first_row, row, crowding.crowded[pattern.node[p]] != 0});
     first = p + 1;
     first_row = row;
   }

@@ -1,4 +1,5 @@
 #pragma once
+#include "analyze/crowding.h"
 #include "analyze/elimination_tree.h"
 #include "analyze/kkt_pattern.h"
 
@@ -8,6 +9,7 @@ namespace mlcp {
 struct Island {
   std::int32_t first, last;          ///< positions
   std::int32_t first_row, last_row;  ///< ordinals of its constraint rows
+  bool crowded;                      ///< factored with ε, rows and velocities in any order
 };
 
 /// Pattern of L with every selected row in: the factor of any active set fits. Row indices ascend within a column; the first is the
@@ -18,14 +20,15 @@ struct Symbolic {
   Array<std::int32_t> rows;
   Array<std::int32_t> run_end;  ///< columns p .. run_end[p] − 1 nest: each has the rows of the one before without its own (a supernode)
   Array<std::int32_t> run_start;
+  Array<std::int64_t> path_entries;  ///< of the columns on the path p → root, p's own included: what a toggle of p may touch
   Array<Island> islands;
-  explicit Symbolic(const Memory& m) : parent(m), pointers(m), rows(m), run_end(m), run_start(m), islands(m), mark_(m), end_(m) {}
+  explicit Symbolic(const Memory& m) : parent(m), pointers(m), rows(m), run_end(m), run_start(m), path_entries(m), islands(m), mark_(m), end_(m) {}
 
   std::int32_t size() const { return static_cast<std::int32_t>(parent.size()); }
   std::int64_t entries() const { return pointers.empty() ? 0 : pointers.back(); }
 
   /// cost: O(entries of L), by walking each row's subtree twice (Davis 2006, ch. 4).
-  void build(const KktPattern& pattern, const EliminationTree& tree);
+  void build(const KktPattern& pattern, const EliminationTree& tree, const Crowding& crowding);
 
  private:
   Array<std::int32_t> mark_;

@@ -7,13 +7,17 @@ namespace mlcp {
 
 struct Problem;
 
-/// One state a row and, if known, its key: `key` is empty or as long as `state`.
+/// One state a row and, if known, its key and impulse: `key` and `impulse` are empty or as long as `state`.
 struct Mask {
   Memory memory;
   Array<mlcp_row_state> state;
   Array<std::uint64_t> key;
+  Array<double> impulse;
 
-  explicit Mask(const Memory& m) : memory(m), state(m), key(m) {}
+  explicit Mask(const Memory& m) : memory(m), state(m), key(m), impulse(m) {}
+  void reserve(std::size_t rows);
+  void swap(Mask& other) noexcept;
+  void trim();
 };
 
 /// Makes the mask `count` rows long; new rows get `state`, no key.
@@ -21,6 +25,9 @@ void mask_resize(Mask& mask, std::int32_t count, mlcp_row_state state);
 void mask_set(Mask& mask, std::int32_t first, std::int32_t count, const mlcp_row_state* states);
 void mask_get(const Mask& mask, std::int32_t first, std::int32_t count, mlcp_row_state* states);
 std::int32_t mask_count(const Mask& mask, mlcp_row_state state);
+void mask_set_impulses(Mask& mask, std::int32_t first, std::int32_t count, const double* impulses);
+/// fails: STATE, it has none.
+void mask_get_impulses(const Mask& mask, std::int32_t first, std::int32_t count, double* impulses);
 /// States only.
 bool mask_equal(const Mask& a, const Mask& b);
 /// The keys of the problem's rows; fails: RANGE, the sizes differ.
@@ -29,11 +36,11 @@ void mask_take_keys(Mask& mask, const Problem& problem);
 /// Scratch of mask_carry.
 struct CarryWorkspace {
   KeyTable table;
-  Array<mlcp_row_state> state;
-  explicit CarryWorkspace(const Memory& memory) : table(memory), state(memory) {}
+  Mask rows;
+  explicit CarryWorkspace(const Memory& memory) : table(memory), rows(memory) {}
 };
 
-/// States and keys for the rows of `problem`: the state that the row with the same key had in `previous`, else `otherwise`.
+/// States, impulses and keys for the rows of `problem`: those that the row with the same key had in `previous`, else `otherwise` and 0.
 /// `previous` may be the mask itself.      cost: expected O(m).
 void mask_carry(Mask& mask, const Problem& problem, const Mask& previous, mlcp_row_state otherwise, CarryWorkspace& work);
 

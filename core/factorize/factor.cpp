@@ -21,6 +21,7 @@ void Factor::prepare(const KktPattern& pattern, const Symbolic& symbolic, const 
   gathered_.resize(size);
   mark_.assign(size, -1);
   reach_.resize(size);
+  failed_.resize(size);
 }
 
 FactorStatus Factor::factorize(const Island& island, const std::uint8_t* wanted, double drop, std::int64_t& work) {
@@ -30,7 +31,7 @@ FactorStatus Factor::factorize(const Island& island, const std::uint8_t* wanted,
   for (std::int32_t p = island.first; p < island.last; ++p) in_[p] = !pattern_->is_row(p) || wanted[p];
   for (std::int32_t p = island.first; p < island.last; ++p) {
     const bool row = pattern_->is_row(p);
-    double d = kkt_->diagonal[p];
+    double d = kkt_->factored[p];
     if (in_[p]) {
       for (std::int32_t t = pattern_->lower_pointers[p]; t < pattern_->lower_pointers[p + 1]; ++t) {
         const std::int32_t q = pattern_->lower_rows[t];
@@ -56,7 +57,7 @@ FactorStatus Factor::factorize(const Island& island, const std::uint8_t* wanted,
     }
     bool live = in_[p];
     if (live && !row && !(d > 0)) {
-      failed_ = p;
+      failed_[island.first] = p;
       for (std::int64_t t = start[p]; t < start[p + 1]; ++t) y_[rows[t]] = 0;
       return FactorStatus::not_positive_definite;
     }
@@ -169,12 +170,12 @@ FactorStatus Factor::remove(std::int32_t p, std::int64_t& work) {
   return status;
 }
 
-FactorStatus Factor::insert(std::int32_t p, std::int64_t& work) {
+FactorStatus Factor::insert(std::int32_t p, std::int64_t& work, double drop) {
   const std::int32_t o = pattern_->row_ordinal[p];
   double* y = y_.data();
   for (std::int32_t t = pattern_->row_pointers[o]; t < pattern_->row_pointers[o + 1]; ++t)
     if (in_[pattern_->row_columns[t]]) y[pattern_->row_columns[t]] = kkt_->row[t];
-  double d = kkt_->diagonal[p];
+  double d = kkt_->factored[p];
   // row p of L: L(:p,:p) D l = K(:p,p); its entries in C are y_j
   const FactorArrays f = arrays();
   for_each_stretch(reach(p, p, p), p, [&](const Stretch& s) {
@@ -190,6 +191,11 @@ FactorStatus Factor::insert(std::int32_t p, std::int64_t& work) {
   });
   y[p] = 0;
   const std::int64_t begin = symbolic_->pointers[p], end = symbolic_->pointers[p + 1];
+  if (drop > 0 && !(std::abs(d) > drop * kkt_->a[o])) {
+    for (std::int64_t t = begin; t < end; ++t) y[symbolic_->rows[t]] = 0;
+    clear_row(p, work);
+    return FactorStatus::dependent;
+  }
   for (std::int64_t t = begin; t < end; ++t) {
     values_[t] = y[symbolic_->rows[t]];
     y[symbolic_->rows[t]] = 0;
@@ -223,7 +229,7 @@ double Factor::forward_row(std::int32_t p, std::int32_t last, double* x, bool ke
   const std::int32_t o = pattern_->row_ordinal[p];
   for (std::int32_t t = pattern_->row_pointers[o]; t < pattern_->row_pointers[o + 1]; ++t)
     if (in_[pattern_->row_columns[t]]) x[pattern_->row_columns[t]] = kkt_->row[t];
-  double schur = kkt_->diagonal[p];
+  double schur = kkt_->factored[p];
   const FactorArrays f = arrays();
   for_each_stretch(reach(p, last, last), last, [&](const Stretch& s) {
     work += kernels_->forward(f, s, x);

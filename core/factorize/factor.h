@@ -7,6 +7,7 @@ namespace mlcp {
 
 enum class FactorStatus {
   ok,
+  dependent,             ///< an insertion was not made: the row depends on those that are in
   small_pivot,           ///< the update would divide by rounding: the factor is stale, refactorize
   not_positive_definite  ///< a velocity's pivot is not positive: Factor::failed_position()
 };
@@ -18,7 +19,7 @@ enum class FactorStatus {
 /// invariant, per fresh island: Σ_k C(:,k) C(:,k)ᵀ / d_k = K on the nodes that are in, up to rounding.
 class Factor {
  public:
-  explicit Factor(const Memory& m) : values_(m), pivot_(m), inverse_(m), in_(m), next_(m), head_(m), cursor_(m), y_(m), gathered_(m), mark_(m), reach_(m) {}
+  explicit Factor(const Memory& m) : values_(m), pivot_(m), inverse_(m), in_(m), next_(m), head_(m), cursor_(m), y_(m), gathered_(m), mark_(m), reach_(m), failed_(m) {}
 
   /// Sizes everything for this pattern. allocates; all islands are stale afterwards.
   void prepare(const KktPattern& pattern, const Symbolic& symbolic, const KktValues& values);
@@ -37,8 +38,9 @@ class Factor {
   /// cost: the columns on the path parent(p) → root, and row p of L.
   /// source: Davis & Hager (2005): row deletion as one rank-1 update.
   FactorStatus remove(std::int32_t p, std::int64_t& work);
-  /// Takes row p in.  before: out.  after: as if factored with it.  The same paper: one sparse solve and one rank-1 downdate.
-  FactorStatus insert(std::int32_t p, std::int64_t& work);
+  /// Takes row p in, unless its pivot is at most drop · a in size.  before: out.  after: as if factored with it.  The same paper: one sparse
+  /// solve and one rank-1 downdate.
+  FactorStatus insert(std::int32_t p, std::int64_t& work, double drop = 0);
 
   /// x := K⁻¹ x over an island; entries of nodes that are out come back 0.
   void solve(const Island& island, double* x, std::int64_t& work) const;
@@ -51,7 +53,7 @@ class Factor {
 
   /// Columns on the path parent(p) → root: what a toggle of p may touch.
   std::int64_t path_columns(std::int32_t p) const;
-  std::int32_t failed_position() const { return failed_; }
+  std::int32_t failed_position(const Island& island) const { return failed_[island.first]; }
   const Symbolic& symbolic() const { return *symbolic_; }
 
  private:
@@ -78,7 +80,7 @@ class Factor {
   Array<double> y_;                  // 0 between calls
   Array<double> gathered_;           // workspace of the kernels
   Array<std::int32_t> mark_, reach_; // mark_ is −1 between calls
-  std::int32_t failed_ = -1;
+  Array<std::int32_t> failed_;       // by island's first position
 };
 
 }  // namespace mlcp

@@ -24,6 +24,7 @@ void KktValues::load(const Problem& problem, const KktPattern& pattern) {
       size[p] = std::abs(b[p]);
     }
   }
+  factored.assign(diagonal.span());
   lower.resize(pattern.lower_rows.size());
   for (std::int32_t p = 0; p < positions; ++p) {
     const bool column_is_row = pattern.is_row(p);
@@ -73,8 +74,21 @@ void KktValues::load(const Problem& problem, const KktPattern& pattern) {
 void KktValues::soften(const Problem& problem, const KktPattern& pattern, std::int32_t first, std::int32_t last, double amount) {
   for (std::int32_t o = first; o < last; ++o) {
     const std::int32_t p = pattern.row_position[o], s = pattern.diagonal_source[p];
-    diagonal[p] = -((s < 0 ? 0.0 : problem.compliance.values[s]) + amount * a[o]);
+    factored[p] = diagonal[p] = -((s < 0 ? 0.0 : problem.compliance.values[s]) + amount * a[o]);
   }
+}
+
+void KktValues::regularise(const KktPattern& pattern, const Island& island, double epsilon, double delta) {
+  for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
+    const std::int32_t p = pattern.row_position[o];
+    factored[p] = diagonal[p] - epsilon * a[o];
+  }
+  double largest = 0;
+  if (delta > 0)
+    for (std::int32_t p = island.first; p < island.last; ++p)
+      if (!pattern.is_row(p)) largest = std::max(largest, diagonal[p]);
+  for (std::int32_t p = island.first; p < island.last; ++p)
+    if (!pattern.is_row(p)) factored[p] = diagonal[p] + delta * (largest > 0 ? largest : 1);
 }
 
 }  // namespace mlcp

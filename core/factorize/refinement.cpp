@@ -8,7 +8,9 @@ namespace mlcp {
 namespace {
 
 constexpr double rounding = 2.5e-16;
-constexpr int most_steps = 6;
+/// A momentum residual up to this cannot be made smaller for certain.
+constexpr double settled = 1e-15;
+constexpr int most_steps = 12;
 /// Rows with an error up to this are right; those above are worth correcting alone.
 constexpr double noisy = 1e-13;
 
@@ -22,8 +24,8 @@ void Refinement::prepare(std::int32_t size) {
 }
 
 /// after: residual_ = b − K x, scale_ = |K||x| + size on the island.
-double Refinement::measure(const Island& island, const KktPattern& pattern, const KktValues& values, const Factor& factor,
-                           const double* b, const double* size, const double* x, std::int64_t& work) {
+Refinement::Error Refinement::measure(const Island& island, const KktPattern& pattern, const KktValues& values, const Factor& factor,
+                                      const double* b, const double* size, const double* x, std::int64_t& work) {
   for (std::int32_t p = island.first; p < island.last; ++p) {
     residual_[p] = static_cast<long double>(b[p]) - static_cast<long double>(values.diagonal[p]) * x[p];
     scale_[p] = size[p] + std::abs(values.diagonal[p] * x[p]);
@@ -39,31 +41,22 @@ double Refinement::measure(const Island& island, const KktPattern& pattern, cons
     }
   }
   work += 2 * (pattern.lower_pointers[island.last] - pattern.lower_pointers[island.first]);
-  double worst = 0;
-  off_ = 0;
+  Error worst;
   for (std::int32_t p = island.first; p < island.last; ++p) {
     if (!factor.in(p)) continue;
     const double e = std::abs(static_cast<double>(residual_[p])), relative = scale_[p] > 0 ? e / scale_[p] : e;
-    worst = relative <= worst ? worst : relative;  // keeps NaN
-    off_ += relative > noisy;
+    const bool row = pattern.is_row(p);
+    double& error = row ? worst.rows : worst.momentum;
+    error = relative <= error ? error : relative;  // keeps NaN
+    if (!row || relative <= noisy) continue;
+    ++worst.off;
+    worst.largest_off = std::max(worst.largest_off, e);
   }
   return worst;
 }
 
-/// Corrects rows alone. A velocity that its row holds near 0 comes out as rounding of the impulses around it, far larger than the row's own
-/// terms. With the momentum residual, which is rounding by now, left out of the right-hand side, the correction is as small as
-/// the row's residual and leaves momentum as it is (M δv = Jᵀδγ). What then is left far below the rounding of momentum, in a row that is
-/// still off, is 0: the row holds it exactly there.
-void Refinement::polish_rows(const Island& island, const KktPattern& pattern, const KktValues& values, const Factor& factor,
-                             const double* b, const double* size, double* x, std::int64_t& work) {
-  const auto of = [&](auto* data) { return slice(data, island.first, island.last); };
-  for (int step = 0; step < 2; ++step) {
-    for (std::int32_t p = island.first; p < island.last; ++p)
-      correction_[p] = pattern.is_row(p) ? static_cast<double>(residual_[p]) : 0.0;
-    factor.solve(island, correction_.data(), work);  // 0 on what is out
-    of(x) += of(correction_.data());
-    measure(island, pattern, values, factor, b, size, x, work);
-  }
+/// A velocity far below the rounding of momentum, in a row that is still off, is 0: the row holds it exactly there.
+void Refinement::stop_velocities(const Island& island, const KktPattern& pattern, const KktValues& values, const Factor& factor, double* x) {
   for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
     const std::int32_t p = pattern.row_position[o];
     if (!factor.in(p) || std::abs(static_cast<double>(residual_[p])) <= noisy * scale_[p]) continue;
@@ -74,39 +67,46 @@ void Refinement::polish_rows(const Island& island, const KktPattern& pattern, co
   }
 }
 
-/// Solve and correct until rounding is reached or a step no longer helps; then, if rows are still off, polish them.
+/// A velocity that its row holds near 0 comes out as rounding of the impulses around it, far larger than the row's own terms. So once the momentum
+/// residual is rounding it is left out of the right-hand side: then the correction is as small as the rows' residuals and leaves
+/// momentum as it is (M δv = Jᵀδγ).
 double Refinement::solve(const Island& island, const KktPattern& pattern, const KktValues& values, const Factor& factor,
                          const double* b, const double* size, double* x, std::int64_t& steps, std::int64_t& work) {
   const auto of = [&](auto* data) { return slice(data, island.first, island.last); };
+  const auto look = [&] { return measure(island, pattern, values, factor, b, size, x, work); };
+  // a row at rest has the error 1 until it is exactly at rest: its w tells whether it gets there
+  const auto better = [](const Error& now, const Error& before) {
+    return now.largest() < before.largest() || now.off < before.off || now.largest_off < 0.1 * before.largest_off;
+  };
   for (std::int32_t p = island.first; p < island.last; ++p)
     if (factor.in(p)) x[p] = 0;
-  double error = measure(island, pattern, values, factor, b, size, x, work);
-  const auto keep = [&] { of(best_.data()) = of(x); };
-  const auto go_back = [&] {
-    of(x) = of(best_.data());
-    return measure(island, pattern, values, factor, b, size, x, work);
-  };
+  Error error = look();
+  double momentum_before = infinity;
   for (int step = 0; step <= most_steps; ++step) {
-    keep();
-    of(correction_.data()) = of(residual_.data()).cast<double>();
+    of(best_.data()) = of(x);
+    const bool rows_alone = step > 0 && (error.momentum <= settled || error.momentum > 0.5 * momentum_before);
+    for (std::int32_t p = island.first; p < island.last; ++p)
+      correction_[p] = rows_alone && !pattern.is_row(p) ? 0.0 : static_cast<double>(residual_[p]);
     factor.solve(island, correction_.data(), work);  // 0 on what is out
     of(x) += of(correction_.data());
     steps += step > 0;
-    const double now = measure(island, pattern, values, factor, b, size, x, work);
-    if (step > 0 && !(now < error)) {
-      error = go_back();
+    const Error now = look();
+    if (step > 0 && !better(now, error)) {
+      of(x) = of(best_.data());
       break;
     }
+    if (!rows_alone) momentum_before = step > 0 ? error.momentum : infinity;
     error = now;
-    if (error <= rounding) return error;
+    if (error.largest() <= rounding) return error.largest();
   }
-  if (off_ == 0) return error;
-  const std::int32_t off = off_;
-  keep();
-  ++steps;
-  polish_rows(island, pattern, values, factor, b, size, x, work);
-  const double now = measure(island, pattern, values, factor, b, size, x, work);
-  return off_ < off || now < error ? now : go_back();
+  error = look();
+  if (error.off == 0) return error.largest();
+  of(best_.data()) = of(x);
+  stop_velocities(island, pattern, values, factor, x);
+  const Error now = look();
+  if (better(now, error)) return now.largest();
+  of(x) = of(best_.data());
+  return error.largest();
 }
 
 }  // namespace mlcp

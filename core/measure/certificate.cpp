@@ -12,8 +12,14 @@ bool vanishes(long double sum, double size) { return std::abs(sum) <= static_cas
 
 }  // namespace
 
+void CertificateCheck::prepare(const Problem& problem) {
+  sum_.reserve(std::max(problem.n(), problem.m()));
+  size_.reserve(std::max(problem.n(), problem.m()));
+}
+
 bool CertificateCheck::holds(const Problem& problem, const Mask* enabled, std::span<const std::int32_t> row,
                              std::span<const double> y) {
+  const std::lock_guard turn(turn_);
   const SparseView jacobian = problem.jacobian_view(), sigma = problem.compliance_view();
   sum_.assign(std::max(problem.n(), problem.m()), 0.0L);
   size_.assign(std::max(problem.n(), problem.m()), 0.0);

@@ -1,4 +1,6 @@
 #pragma once
+#include <mutex>
+
 #include "assemble/mask.h"
 #include "assemble/problem.h"
 
@@ -11,9 +13,13 @@ namespace mlcp {
 class CertificateCheck {
  public:
   explicit CertificateCheck(const Memory& m) : sum_(m), size_(m), y_(m) {}
+  /// Makes room, so that holds() allocates nothing.
+  void prepare(const Problem& problem);
+  /// May be called by several threads: they take turns.
   bool holds(const Problem& problem, const Mask* enabled, std::span<const std::int32_t> row, std::span<const double> y);
 
  private:
+  std::mutex turn_;
   Array<long double> sum_;
   Array<double> size_, y_;
 };

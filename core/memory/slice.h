@@ -9,5 +9,9 @@ template <class T>
 Eigen::Map<Eigen::Array<T, Eigen::Dynamic, 1>> slice(T* data, std::int32_t first, std::int32_t last) {
   return {data + first, last - first};
 }
+template <class T>
+Eigen::Map<const Eigen::Array<T, Eigen::Dynamic, 1>> slice(const T* data, std::int32_t first, std::int32_t last) {
+  return {data + first, last - first};
+}
 
 }  // namespace mlcp

@@ -37,6 +37,8 @@ const char* method_text(mlcp_method method) {
   switch (method) {
     case MLCP_METHOD_AUTO: return "auto";
     case MLCP_METHOD_SIMPLEX: return "simplex";
+    case MLCP_METHOD_NEWTON: return "newton";
+    case MLCP_METHOD_PGS: return "pgs";
     default: return "unknown";
   }
 }

@@ -22,6 +22,7 @@ struct Result {
   Array<std::int32_t> certificate_row;
   Array<double> certificate_y;
   Array<mlcp_pivot> trace;
+  std::int32_t fallbacks = 0;     ///< islands that a method gave up
 
   explicit Result(const Memory& m)
       : v(m), gamma(m), w(m), mask(m), redundant(m), row_island(m), island_outcome(m), certificates(m), certificate_row(m),

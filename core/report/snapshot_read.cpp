@@ -30,7 +30,7 @@ bool read_flag(ByteReader& from) {
   return flag == 1;
 }
 
-void read_settings(ByteReader& from, Settings& settings) {
+void read_settings(ByteReader& from, std::uint32_t version, Settings& settings) {
   settings.method = from.i32();
   settings.pivot_rule = from.i32();
   settings.refactorize = from.i32();
@@ -39,6 +39,12 @@ void read_settings(ByteReader& from, Settings& settings) {
   settings.max_iterations = from.i64();
   settings.max_work = from.i64();
   settings.max_seconds = from.f64();
+  if (version >= 2) {
+    settings.impulses = from.i32();
+    settings.canonical = from.i32();
+    settings.warm_start = from.i32();
+    settings.num_threads = from.i32();
+  }
   check_settings(settings);
 }
 
@@ -101,13 +107,17 @@ void read_rows(const Memory& memory, ByteReader& from, Scratch& scratch, Problem
   set_compliance_matrix(problem, {m, scratch.pointers.data(), scratch.indices.data(), scratch.values.data(), MLCP_FULL});
 }
 
-bool read_mask(ByteReader& from, std::int32_t rows, Mask& mask) {
+bool read_mask(ByteReader& from, std::uint32_t version, std::int32_t rows, Mask& mask) {
   if (!read_flag(from)) return false;
-  const bool keyed = read_flag(from);
+  const bool keyed = read_flag(from), moved = version >= 2 && read_flag(from);
   const auto states = from.bytes(rows);
   mask_resize(mask, rows, MLCP_ROW_DISABLED);
   mask_set(mask, 0, rows, states.data());
   if (keyed) from.u64s(rows, mask.key);
+  if (moved) {
+    from.f64s(rows, mask.impulse);
+    check_finite("impulses", mask.impulse.data(), rows);
+  }
   return true;
 }
 
@@ -120,17 +130,17 @@ void read_ordering(ByteReader& from, Problem& problem, Array<std::int32_t>& orde
     if (i < 0 || i >= size || !problem.work.marker.insert(i)) throw Error(MLCP_ERROR_FORMAT, "the ordering is none: %d", i);
 }
 
-void read_sections(const Memory& memory, ByteReader& from, Snapshot& out, Place& place) {
+void read_sections(const Memory& memory, ByteReader& from, std::uint32_t version, Snapshot& out, Place& place) {
   Scratch scratch(memory);
-  read_settings(from, out.settings);
+  read_settings(from, version, out.settings);
   place = {"bodies"};
   read_bodies(memory, from, scratch, out.problem, place);
   place = {"rows"};
   read_rows(memory, from, scratch, out.problem);
   place = {"enabled mask"};
-  out.has_enabled = read_mask(from, out.problem.m(), out.enabled);
+  out.has_enabled = read_mask(from, version, out.problem.m(), out.enabled);
   place = {"start mask"};
-  out.has_start = read_mask(from, out.problem.m(), out.start);
+  out.has_start = read_mask(from, version, out.problem.m(), out.start);
   place = {"ordering"};
   read_ordering(from, out.problem, out.ordering);
   place = {"end"};
@@ -139,11 +149,11 @@ void read_sections(const Memory& memory, ByteReader& from, Snapshot& out, Place&
 
 }  // namespace
 
-void read_payload(const Memory& memory, std::span<const std::uint8_t> payload, Snapshot& out) {
+void read_payload(const Memory& memory, std::span<const std::uint8_t> payload, std::uint32_t version, Snapshot& out) {
   ByteReader from(payload);
   Place place;
   try {
-    read_sections(memory, from, out, place);
+    read_sections(memory, from, version, out, place);
   } catch (const Error& e) {
     char body[16] = "";
     if (place.body >= 0) std::snprintf(body, sizeof body, " %d", place.body);

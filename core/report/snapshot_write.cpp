@@ -18,6 +18,10 @@ void write_settings(const Settings& settings, ByteWriter& to) {
   to.i64(settings.max_iterations);
   to.i64(settings.max_work);
   to.f64(settings.max_seconds);
+  to.i32(settings.impulses);
+  to.i32(settings.canonical);
+  to.i32(settings.warm_start);
+  to.i32(settings.num_threads);
 }
 
 /// The mass as it was given. The caller's entries stand first in every column, in his order.
@@ -73,8 +77,10 @@ void write_mask(const Mask* mask, ByteWriter& to) {
   to.u8(mask ? 1 : 0);
   if (!mask) return;
   to.u8(mask->key.empty() ? 0 : 1);
+  to.u8(mask->impulse.empty() ? 0 : 1);
   to.bytes(mask->state.span());
   to.u64s(mask->key.span());
+  to.f64s(mask->impulse.span());
 }
 
 bool fits(std::span<const std::int32_t> ordering, const Problem& problem) {

@@ -36,7 +36,7 @@ void ActiveSet::start(const Problem& problem, const KktPattern& pattern, const K
       s = at_upper;
     state[o] = s;
     deferred[o] = 0;
-    x[p] = resting_x(s, lo, hi);
+    x[p] = s == active && mask && !mask->impulse.empty() ? -mask->impulse[i] : resting_x(s, lo, hi);
   }
 }
 

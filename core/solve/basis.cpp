@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
+#include <cmath>
+
+#include "memory/slice.h"
 
 namespace mlcp {
 namespace {
@@ -11,6 +14,21 @@ namespace {
 constexpr double drifted = 1e-13;
 /// Worse than this, even on a fresh factor: active rows depend on each other and their pivots are rounding. Larger ones are given up then.
 constexpr double unsolved = 1e-10;
+/// A refined point worse than this has velocities that ought to be 0 and are rounding: a body at rest under large impulses.
+constexpr double off = 1e-13;
+/// What making them 0 may cost, and what counts as such.
+constexpr double stilled = 1e-14, rounding = 16 * 2.2e-16;
+
+/// A row at rest on the wrong side of its bound.
+bool violated(const ActiveSet& set, std::int32_t o) {
+  const double w = set.w[o], zero = set.tolerance[o];
+  switch (set.state[o]) {
+    case ActiveSet::at_lower: return w < -zero;
+    case ActiveSet::at_upper: return w > zero;
+    case ActiveSet::out: return std::abs(w) > zero;
+    default: return false;
+  }
+}
 
 }  // namespace
 
@@ -21,8 +39,10 @@ void Basis::prepare(const Problem& problem, const Analysis& analysis, const Sett
   set.prepare(*pattern);
   factor.prepare(*pattern, analysis.symbolic, values);
   refinement.prepare(pattern->size());
-  factor_work_.assign(pattern->rows() + 1, 0);
-  toggled_.assign(pattern->rows() + 1, 0);
+  response.prepare(analysis.parts, *pattern);
+  work.prepare(*pattern);
+  factor_work_.resize(pattern->size());
+  toggled_.resize(pattern->size());
 }
 
 double Basis::zero() const { return std::clamp(settings_->tolerance * 1e-4, 2e-15, 1e-13); }
@@ -38,8 +58,8 @@ bool Basis::refactorize(const Island& island, double drop, Counts& counts) {
     set.wanted[position(o)] = set.state[o] == ActiveSet::active;
   const std::int64_t before = counts.work;
   const FactorStatus status = factor.factorize(island, set.wanted.data(), drop, counts.work);
-  factor_work_[island.first_row] = counts.work - before;
-  toggled_[island.first_row] = 0;
+  factor_work_[island.first] = counts.work - before;
+  toggled_[island.first] = 0;
   ++counts.factorizations;
   for (std::int32_t o = island.first_row; o < island.last_row; ++o)
     if (set.state[o] == ActiveSet::active && !factor.in(position(o))) rest(o, ActiveSet::resting(values.lo[o], values.hi[o]));
@@ -49,7 +69,7 @@ bool Basis::refactorize(const Island& island, double drop, Counts& counts) {
 
 void Basis::count_toggle(const Island& island, Counts& counts) {
   ++counts.toggles;
-  ++toggled_[island.first_row];
+  ++toggled_[island.first];
 }
 
 bool Basis::activate(const Island& island, std::int32_t o, Counts& counts) {
@@ -69,19 +89,35 @@ void Basis::deactivate(const Island& island, std::int32_t o, ActiveSet::State to
     count_toggle(island, counts);
 }
 
-void Basis::deactivate_all(const Island& island, std::span<const std::int32_t> rows, Counts& counts) {
-  const auto side = [&](std::int32_t o) { return gamma(o) > values.hi[o] ? ActiveSet::at_upper : ActiveSet::at_lower; };
+std::int32_t Basis::change(const Island& island, std::span<const Flip> flips, double drop, Counts& counts) {
   const Symbolic& symbolic = factor.symbolic();
   std::int64_t toggles = 0;  // upper bound of the entries that toggling touches
-  for (const std::int32_t o : rows)
-    for (std::int32_t j = position(o); j >= 0; j = symbolic.parent[j]) toggles += symbolic.pointers[j + 1] - symbolic.pointers[j];
-  if (toggles <= factor_work_[island.first_row]) {
-    for (const std::int32_t o : rows)  // a refactorization on the way may have put some at rest
-      if (set.state[o] == ActiveSet::active) deactivate(island, o, side(o), counts);
-    return;
+  for (const Flip& f : flips)
+    if ((f.to == ActiveSet::active) != (set.state[f.o] == ActiveSet::active)) toggles += symbolic.path_entries[position(f.o)];
+  bool fresh = settings_->refactorize == MLCP_REFACTORIZE_ALWAYS || toggles > factor_work_[island.first];
+  // rows leave before others come in: the factor is never nearer to singular than at the end
+  for (const Flip& f : flips) {
+    const bool in = set.state[f.o] == ActiveSet::active;
+    if (f.to == ActiveSet::active) continue;
+    rest(f.o, static_cast<ActiveSet::State>(f.to));
+    if (fresh || !in) continue;
+    fresh = factor.remove(position(f.o), counts.work) != FactorStatus::ok;
+    count_toggle(island, counts);
   }
-  for (const std::int32_t o : rows) rest(o, side(o));
-  refactorize(island, lost_pivot, counts);
+  for (const Flip& f : flips) {
+    if (f.to != ActiveSet::active || set.state[f.o] == ActiveSet::active) continue;
+    const auto back = static_cast<ActiveSet::State>(set.state[f.o]);
+    set.state[f.o] = ActiveSet::active;
+    if (fresh) continue;
+    const FactorStatus status = factor.insert(position(f.o), counts.work, drop);
+    if (status == FactorStatus::dependent) rest(f.o, back);
+    fresh = status == FactorStatus::small_pivot;
+    count_toggle(island, counts);
+  }
+  if (fresh) refactorize(island, drop, counts);
+  std::int32_t refused = 0;
+  for (const Flip& f : flips) refused += f.to == ActiveSet::active && set.state[f.o] != ActiveSet::active;
+  return refused;
 }
 
 bool Basis::check(const Island& island) const {
@@ -90,27 +126,73 @@ bool Basis::check(const Island& island) const {
   return true;
 }
 
+void Basis::look_at_slacks(const Island& island, Counts& counts) {
+  slacks(island, *pattern, values, set.x.data(), set.w.data());
+  slack_tolerances(island, *pattern, values, zero(), set);
+  counts.work += 2 * (pattern->row_pointers[island.last_row] - pattern->row_pointers[island.first_row]);
+}
+
+std::int32_t Basis::violations(const Island& island) const {
+  std::int32_t count = 0;
+  for (std::int32_t o = island.first_row; o < island.last_row; ++o) count += violated(set, o);
+  return count;
+}
+
+/// Velocities whose momentum |Mⱼⱼ vⱼ| is a few roundings of its own terms, or, widely, of the largest of the island, become 0.
+/// returns whether one has changed.
+bool Basis::still(const Island& island, bool widely) {
+  double largest = 0;
+  for (std::int32_t p = island.first; p < island.last; ++p)
+    if (!pattern->is_row(p)) largest = std::max(largest, refinement.scale(p));
+  bool changed = false;
+  for (std::int32_t p = island.first; p < island.last; ++p) {
+    if (pattern->is_row(p) || set.x[p] == 0 || std::abs(values.diagonal[p] * set.x[p]) > rounding * (widely ? largest : refinement.scale(p))) continue;
+    set.x[p] = 0;
+    changed = true;
+  }
+  return changed;
+}
+
+double Basis::refine(const Island& island, Counts& counts) {
+  double error = refinement.solve(island, *pattern, values, factor, values.b.data(), values.size.data(), set.x.data(),
+                                  counts.refinements, counts.work);
+  look_at_slacks(island, counts);
+  std::int32_t wrong = violations(island);
+  auto point = slice(work.point.data(), island.first, island.last);
+  auto x = slice(set.x.data(), island.first, island.last);
+  for (const bool widely : {false, true}) {
+    if (error <= off && wrong == 0) break;
+    point = x;
+    if (!still(island, widely)) continue;
+    const double now = refinement.error(island, *pattern, values, factor, values.b.data(), values.size.data(), set.x.data(), counts.work);
+    look_at_slacks(island, counts);
+    const std::int32_t now_wrong = violations(island);
+    if (now <= std::max(error, stilled) && now_wrong <= wrong) {
+      error = now;
+      wrong = now_wrong;
+    } else {
+      x = point;
+      look_at_slacks(island, counts);
+    }
+  }
+  return error;
+}
+
 void Basis::solve_point(const Island& island, Counts& counts) {
   assert(check(island));
   // a direction that overflowed may have left its mark on rows at rest
   for (std::int32_t o = island.first_row; o < island.last_row; ++o)
     if (set.state[o] != ActiveSet::active) rest(o, static_cast<ActiveSet::State>(set.state[o]));
-  const auto refined = [&] {
-    return refinement.solve(island, *pattern, values, factor, values.b.data(), values.size.data(), set.x.data(), counts.refinements, counts.work);
-  };
-  double error = refined();
-  if (!(error <= drifted) && toggled_[island.first_row] > 0) {
+  double error = refine(island, counts);
+  if (!(error <= drifted) && toggled_[island.first] > 0) {
     ++counts.drifts;
     refactorize(island, lost_pivot, counts);
-    error = refined();
+    error = refine(island, counts);
   }
   for (double drop = 100 * lost_pivot; !(error <= unsolved) && drop <= dependent_pivot; drop *= 100) {
     refactorize(island, drop, counts);
-    error = refined();
+    error = refine(island, counts);
   }
-  slacks(island, *pattern, values, set.x.data(), set.w.data());
-  slack_tolerances(island, *pattern, values, zero(), set);
-  counts.work += 2 * (pattern->row_pointers[island.last_row] - pattern->row_pointers[island.first_row]);
 }
 
 }  // namespace mlcp

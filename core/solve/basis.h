@@ -1,8 +1,10 @@
 #pragma once
 #include "factorize/factor.h"
+#include "factorize/mass_response.h"
 #include "factorize/refinement.h"
 #include "solve/active_set.h"
 #include "solve/limits.h"
+#include "solve/workspace.h"
 
 namespace mlcp {
 
@@ -16,7 +18,7 @@ constexpr double lost_pivot = 1e-13;
 /// invariant, per island: a row is in the factor if and only if its state is active.
 class Basis {
  public:
-  explicit Basis(const Memory& m) : values(m), set(m), factor(m), refinement(m), toggled_(m), factor_work_(m) {}
+  explicit Basis(const Memory& m) : values(m), set(m), factor(m), refinement(m), response(m), work(m), toggled_(m), factor_work_(m) {}
 
   void prepare(const Problem& problem, const Analysis& analysis, const Settings& settings);
 
@@ -30,12 +32,18 @@ class Basis {
   void rest(std::int32_t o, ActiveSet::State to);
   /// Takes row o out and puts it at rest in `to`.
   void deactivate(const Island& island, std::int32_t o, ActiveSet::State to, Counts& counts);
-  /// Puts the rows listed at rest where each lies beyond its bound; by toggles or afresh, whichever touches less.
-  void deactivate_all(const Island& island, std::span<const std::int32_t> rows, Counts& counts);
+  /// Makes all changes, by toggles or afresh, whichever touches less. Rows that depend on others (pivot ≤ drop · a) rest afterwards.
+  /// returns the number of rows that rest against what was asked.
+  std::int32_t change(const Island& island, std::span<const Flip> flips, double drop, Counts& counts);
 
   /// The point of the active set: v and the active impulses from the linear system (3.2), refined; refactorized once if the factor has
   /// drifted. Then w, and what counts as zero.
   void solve_point(const Island& island, Counts& counts);
+
+  /// The refined point of the factor as it is; then w, and what counts as zero. A velocity that is 0 because large impulses cancel, or because
+  /// rows at rest hold it there, comes out as rounding, which its own terms do not forgive: it is made 0 where the errors allow it.
+  /// returns the backward error.
+  double refine(const Island& island, Counts& counts);
 
   /// Slacks up to this, relative to the scale of their error, count as zero while solving.
   double zero() const;
@@ -51,12 +59,17 @@ class Basis {
   ActiveSet set;
   Factor factor;
   Refinement refinement;
+  MassResponse response;
+  Workspace work;
 
  private:
+  void look_at_slacks(const Island& island, Counts& counts);
+  std::int32_t violations(const Island& island) const;
+  bool still(const Island& island, bool widely);
   void count_toggle(const Island& island, Counts& counts);
   const Settings* settings_ = nullptr;
-  Array<std::int32_t> toggled_;      // by island's first ordinal: toggles since the last factorization
-  Array<std::int64_t> factor_work_;  // by island's first ordinal: entries that its last factorization touched
+  Array<std::int32_t> toggled_;      // by island's first position: toggles since the last factorization
+  Array<std::int64_t> factor_work_;  // by island's first position: entries that its last factorization touched
 };
 
 }  // namespace mlcp

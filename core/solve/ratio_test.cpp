@@ -13,6 +13,7 @@ constexpr double negligible = 1e-12;
 Step ratio_test(const Island& island, const Basis& basis, const Direction& direction, std::int32_t entering, mlcp_pivot_rule rule) {
   const ActiveSet& set = basis.set;
   const KktValues& k = basis.values;
+  const double* slopes = basis.work.slope.data();
   Step step;
   const auto row = [&](std::int32_t o) { return basis.pattern->node[basis.position(o)]; };
   const double per_unit = k.root_a[entering];
@@ -20,7 +21,7 @@ Step ratio_test(const Island& island, const Basis& basis, const Direction& direc
   const auto arrive = [&](double length, ActiveSet::State to) {
     if (std::max(length, 0.0) < step.length) step = {std::max(length, 0.0), entering, to};
   };
-  if (!direction.dependent) arrive(-set.w[entering] / direction.dw[entering], ActiveSet::active);
+  if (!direction.dependent) arrive(-set.w[entering] / slopes[entering], ActiveSet::active);
   const double gamma = basis.gamma(entering);
   if (direction.sign > 0 && k.hi[entering] < infinity) arrive(k.hi[entering] - gamma, ActiveSet::at_upper);
   if (direction.sign < 0 && k.lo[entering] > -infinity) arrive(gamma - k.lo[entering], ActiveSet::at_lower);
@@ -35,7 +36,7 @@ Step ratio_test(const Island& island, const Basis& basis, const Direction& direc
   };
   const std::uint8_t* state = set.state.data();
   const std::int32_t* position = basis.pattern->row_position.data();
-  const double* dx = direction.dx.data();
+  const double* dx = basis.work.step.data();
   for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
     if (state[o] != ActiveSet::active) continue;
     const double slope = -dx[position[o]];
@@ -44,7 +45,7 @@ Step ratio_test(const Island& island, const Basis& basis, const Direction& direc
   }
   if (rule == MLCP_PIVOT_PRINTED && !direction.dependent) {
     for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
-      const double w = set.w[o], slope = direction.dw[o], zero = set.tolerance[o];
+      const double w = set.w[o], slope = slopes[o], zero = set.tolerance[o];
       if (o == entering || zero == infinity) continue;
       if (set.state[o] == ActiveSet::at_lower && w >= -zero && slope < 0) offer(std::min(-w, 0.0), slope, 1 / k.root_a[o], o, ActiveSet::active);
       if (set.state[o] == ActiveSet::at_upper && w <= zero && slope > 0) offer(std::max(-w, 0.0), slope, 1 / k.root_a[o], o, ActiveSet::active);

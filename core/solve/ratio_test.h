@@ -3,13 +3,11 @@
 
 namespace mlcp {
 
-/// Where the solution goes when the impulse of the entering row p moves by `sign`: x + t dx, w + t dw.
+/// Where the solution goes when the impulse of the entering row p moves by `sign`: x + t · Workspace::step, w + t · Workspace::slope.
 struct Direction {
-  Array<double> dx, dw;
   double sign = 1;
   double schur = 0;        ///< of the entering row, relative to its a
-  bool dependent = false;  ///< the entering row depends on active ones: v does not move, dw = 0
-  explicit Direction(const Memory& m) : dx(m), dw(m) {}
+  bool dependent = false;  ///< the entering row depends on active ones: v does not move, w stays
 };
 
 /// The paper's Calcola_step_max.

@@ -1,10 +1,17 @@
 #include "solve/settings.h"
 
 #include <cmath>
+#include <cstdint>
 
 #include "memory/error.h"
 
 namespace mlcp {
+
+namespace {
+
+constexpr std::int32_t most_threads = 1024;
+
+}  // namespace
 
 Settings default_settings() {
   Settings settings{};
@@ -13,6 +20,8 @@ Settings default_settings() {
   settings.pivot_rule = MLCP_PIVOT_DUAL;
   settings.refactorize = MLCP_REFACTORIZE_WHEN_NEEDED;
   settings.tolerance = 1e-9;
+  settings.warm_start = 1;
+  settings.num_threads = 1;
   return settings;
 }
 
@@ -20,7 +29,7 @@ void check_settings(const Settings& settings) {
   const auto refuse = [](const char* field, double value, const char* why) {
     throw Error(MLCP_ERROR_ARGUMENT, "settings.%s = %g %s", field, value, why);
   };
-  if (settings.method < MLCP_METHOD_AUTO || settings.method > MLCP_METHOD_SIMPLEX)
+  if (settings.method < MLCP_METHOD_AUTO || settings.method > MLCP_METHOD_PGS)
     refuse("method", settings.method, "is unknown");
   if (settings.pivot_rule < MLCP_PIVOT_DUAL || settings.pivot_rule > MLCP_PIVOT_PRINTED)
     refuse("pivot_rule", settings.pivot_rule, "is unknown");
@@ -28,6 +37,8 @@ void check_settings(const Settings& settings) {
     refuse("refactorize", settings.refactorize, "is unknown");
   if (!(settings.tolerance > 0) || !std::isfinite(settings.tolerance))
     refuse("tolerance", settings.tolerance, "is not a positive number");
+  if (settings.impulses < MLCP_IMPULSES_ANY || settings.impulses > MLCP_IMPULSES_LEAST_NORM) refuse("impulses", settings.impulses, "is unknown");
+  if (settings.num_threads < 0 || settings.num_threads > most_threads) refuse("num_threads", settings.num_threads, "is not in 0 .. 1024");
   if (settings.max_iterations < 0) refuse("max_iterations", static_cast<double>(settings.max_iterations), "is negative");
   if (settings.max_work < 0) refuse("max_work", static_cast<double>(settings.max_work), "is negative");
   if (!(settings.max_seconds >= 0)) refuse("max_seconds", settings.max_seconds, "is negative");

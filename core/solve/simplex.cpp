@@ -20,18 +20,6 @@ constexpr double drift = 1e-7;
 
 }  // namespace
 
-void Simplex::prepare(const Problem& problem, const Mask* enabled, const Settings& settings) {
-  problem_ = &problem;
-  enabled_ = enabled;
-  settings_ = &settings;
-  direction_.dx.assign(basis_.pattern->size(), 0.0);
-  direction_.dw.assign(basis_.pattern->rows(), 0.0);
-  rhs_.resize(basis_.pattern->size());
-  rhs_size_.resize(basis_.pattern->size());
-  residual_.resize(basis_.pattern->size());
-  entered_.assign(basis_.pattern->rows(), 0);
-}
-
 /// The paper's "un qualsiasi k": the row with the largest |w|/√a whose impulse can still move against it, least index on ties.
 std::int32_t Simplex::entering_row(const Island& island) const {
   const ActiveSet& set = basis_.set;
@@ -62,31 +50,32 @@ double Simplex::pivot_along(std::int32_t entering, const double* z) const {
   return sum;
 }
 
-void Simplex::refine_direction(const Island& island, std::int32_t entering, Counts& counts) {
+void Simplex::refine_direction(const Island& island, std::int32_t entering) {
   const KktPattern& pattern = *basis_.pattern;
-  Array<double>& z = direction_.dx;
-  std::fill(rhs_.begin() + island.first, rhs_.begin() + island.last, 0.0);
-  std::fill(z.begin() + island.first, z.begin() + island.last, 0.0);
+  Workspace& work = basis_.work;
+  std::fill(work.rhs.begin() + island.first, work.rhs.begin() + island.last, 0.0);
+  std::fill(work.step.begin() + island.first, work.step.begin() + island.last, 0.0);
   for (std::int32_t t = pattern.row_pointers[entering]; t < pattern.row_pointers[entering + 1]; ++t)
-    rhs_[pattern.row_columns[t]] = basis_.values.row[t];
-  for (std::int32_t q = island.first; q < island.last; ++q) rhs_size_[q] = std::abs(rhs_[q]);
-  basis_.refinement.solve(island, pattern, basis_.values, basis_.factor, rhs_.data(), rhs_size_.data(), z.data(), counts.refinements, counts.work);
+    work.rhs[pattern.row_columns[t]] = basis_.values.row[t];
+  for (std::int32_t q = island.first; q < island.last; ++q) work.rhs_size[q] = std::abs(work.rhs[q]);
+  basis_.refinement.solve(island, pattern, basis_.values, basis_.factor, work.rhs.data(), work.rhs_size.data(), work.step.data(),
+                          counts_.refinements, counts_.work);
 }
 
 /// Changes of x and w when the entering impulse moves by one unit: K dx = sign K(:,p) on what is in, dx_p = −sign.
-void Simplex::find_direction(const Island& island, std::int32_t entering, Counts& counts) {
+void Simplex::find_direction(const Island& island, std::int32_t entering) {
   const std::int32_t p = basis_.position(entering);
   const double a = basis_.values.a[entering];
-  double* dx = direction_.dx.data();
-  for (bool fresh = settings_->refactorize == MLCP_REFACTORIZE_ALWAYS;; fresh = true) {
-    const double schur = -basis_.factor.solve_row(island, p, dx, counts.work);
+  double* dx = basis_.work.step.data();
+  for (bool fresh = input_.settings.refactorize == MLCP_REFACTORIZE_ALWAYS;; fresh = true) {
+    const double schur = -basis_.factor.solve_row(island, p, dx, counts_.work);
     direction_.schur = pivot_along(entering, dx);
     if (fresh || std::abs(schur - direction_.schur) <= drift * a) break;
-    ++counts.drifts;
-    basis_.refactorize(island, lost_pivot, counts);
+    ++counts_.drifts;
+    basis_.refactorize(island, lost_pivot, counts_);
   }
   if (std::abs(direction_.schur) <= delicate * a) {
-    refine_direction(island, entering, counts);
+    refine_direction(island, entering);
     direction_.schur = pivot_along(entering, dx);
   }
   direction_.schur = a > 0 ? direction_.schur / a : 0;
@@ -98,146 +87,153 @@ void Simplex::find_direction(const Island& island, std::int32_t entering, Counts
   const std::uint8_t* state = basis_.set.state.data();
   const std::int32_t *start = pattern.row_pointers.data(), *columns = pattern.row_columns.data();
   const double* entries = basis_.values.row.data();
-  double* dw = direction_.dw.data();
+  double* dw = basis_.work.slope.data();
   for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
     double sum = 0;
     if (state[o] != ActiveSet::active && !direction_.dependent)
       for (std::int32_t t = start[o]; t < start[o + 1]; ++t) sum += entries[t] * dx[columns[t]];
     dw[o] = sum;
   }
-  if (!direction_.dependent) direction_.dw[entering] = direction_.sign * direction_.schur * a;
-  counts.work += pattern.row_pointers[island.last_row] - pattern.row_pointers[island.first_row];
+  if (!direction_.dependent) dw[entering] = direction_.sign * direction_.schur * a;
+  counts_.work += pattern.row_pointers[island.last_row] - pattern.row_pointers[island.first_row];
 }
 
 void Simplex::reverse(const Island& island) {
   direction_.sign = -direction_.sign;
-  for (std::int32_t q = island.first; q < island.last; ++q) direction_.dx[q] = -direction_.dx[q];
+  slice(basis_.work.step.data(), island.first, island.last) *= -1;
 }
 
 void Simplex::advance(const Island& island, double length) {
-  slice(basis_.set.x.data(), island.first, island.last) += length * slice(direction_.dx.data(), island.first, island.last);
-  slice(basis_.set.w.data(), island.first_row, island.last_row) += length * slice(direction_.dw.data(), island.first_row, island.last_row);
+  slice(basis_.set.x.data(), island.first, island.last) += length * slice(basis_.work.step.data(), island.first, island.last);
+  slice(basis_.set.w.data(), island.first_row, island.last_row) += length * slice(basis_.work.slope.data(), island.first_row, island.last_row);
 }
 
 /// Rows whose impulse has left its bounds go to rest there. false: there is none.
-bool Simplex::drop_beyond_bounds(const Island& island, Counts& counts) {
-  beyond_.clear();
+bool Simplex::drop_beyond_bounds(const Island& island) {
+  Flip* flips = basis_.work.flips.data() + island.first_row;
+  std::size_t count = 0;
   for (std::int32_t o = island.first_row; o < island.last_row; ++o)
     if (basis_.set.state[o] == ActiveSet::active && (basis_.gamma(o) < basis_.values.lo[o] || basis_.gamma(o) > basis_.values.hi[o]))
-      beyond_.push_back(o);
-  if (beyond_.empty()) return false;
-  basis_.deactivate_all(island, beyond_.span(), counts);
+      flips[count++] = {o, basis_.gamma(o) > basis_.values.hi[o] ? ActiveSet::at_upper : ActiveSet::at_lower};
+  if (count == 0) return false;
+  basis_.change(island, {flips, count}, lost_pivot, counts_);
   return true;
 }
 
 /// From any active mask to a point whose impulses are within their bounds: the active set only shrinks, so this ends.
-mlcp_outcome Simplex::start(const Island& island, Limits& limits, Counts& counts) {
-  if (!basis_.refactorize(island, lost_pivot, counts)) return MLCP_NOT_POSITIVE_DEFINITE;
+mlcp_outcome Simplex::start(const Island& island) {
+  if (!basis_.refactorize(island, lost_pivot, counts_)) return MLCP_NOT_POSITIVE_DEFINITE;
   do {
-    if (const mlcp_outcome stop = limits.check(counts, 0); stop != MLCP_SOLVED) return stop;
-    basis_.solve_point(island, counts);
-  } while (drop_beyond_bounds(island, counts));
+    if (const mlcp_outcome stop = limits_.check(counts_, 0); stop != MLCP_SOLVED) return stop;
+    basis_.solve_point(island, counts_);
+  } while (drop_beyond_bounds(island));
   return MLCP_SOLVED;
 }
 
-bool Simplex::depends(const Island& island, std::int32_t o, Counts& counts) {
-  return -basis_.factor.schur(island, basis_.position(o), counts.work) <= dependent_ * basis_.values.a[o];
+bool Simplex::depends(const Island& island, std::int32_t o) {
+  return -basis_.factor.schur(island, basis_.position(o), counts_.work) <= dependent_ * basis_.values.a[o];
 }
 
 /// The point of the active set, smaller by the rows whose impulses it has beyond their bounds: it only shrinks, so this ends.
-void Simplex::settle_point(const Island& island, Counts& counts) {
-  do basis_.solve_point(island, counts);
-  while (drop_beyond_bounds(island, counts));
+void Simplex::settle_point(const Island& island) {
+  do basis_.solve_point(island, counts_);
+  while (drop_beyond_bounds(island));
 }
 
 /// Ends a treatment in which the row did not arrive: its impulse goes back to where its state says.
-mlcp_outcome Simplex::leave(const Island& island, std::int32_t entering, mlcp_outcome outcome, Counts& counts) {
+mlcp_outcome Simplex::leave(const Island& island, std::int32_t entering, mlcp_outcome outcome) {
   const double moved = basis_.set.x[basis_.position(entering)];
   basis_.rest(entering, static_cast<ActiveSet::State>(basis_.set.state[entering]));
-  if (outcome == MLCP_SOLVED && moved != basis_.set.x[basis_.position(entering)]) settle_point(island, counts);
+  if (outcome == MLCP_SOLVED && moved != basis_.set.x[basis_.position(entering)]) settle_point(island);
   return outcome;
+}
+
+void Simplex::record(Array<mlcp_pivot>& trace, std::int32_t entering, const Step& step) const {
+  const auto row = [&](std::int32_t o) { return o < 0 ? -1 : basis_.pattern->node[basis_.position(o)] - input_.problem.n(); };
+  const auto to = step.to == ActiveSet::active ? MLCP_ROW_ACTIVE : step.to == ActiveSet::at_upper ? MLCP_ROW_AT_UPPER : MLCP_ROW_AT_LOWER;
+  trace.push_back({island_index_, row(entering), row(step.blocking), static_cast<mlcp_row_state>(to), direction_.dependent,
+                   step.length * direction_.sign, basis_.set.w[entering], direction_.schur});
+}
+
+/// Nothing blocks a step along impulses alone: a proof that there is no solution, or else no dependence but a large mass ratio or a narrow
+/// wedge. again: the row is to be tried once more, as an independent one.
+mlcp_outcome Simplex::stand_still(const Island& island, std::int32_t entering, bool& again) {
+  if (certifying_ && certify(island, entering)) return leave(island, entering, MLCP_INFEASIBLE);
+  again = direction_.schur > lost_pivot;
+  if (again) {
+    dependent_ = std::max(lost_pivot, 0.5 * direction_.schur);
+    return MLCP_SOLVED;
+  }
+  basis_.set.defer(entering);
+  return leave(island, entering, MLCP_SOLVED);
 }
 
 /// The inner loop of the pseudocode: drives one violated row to w = 0 or to its far bound. By the printed rule rows come in on the way, so
 /// that it may hold (w = 0) and depend on them: then its impulse goes back to rest and they take it over, or one of them leaves.
-mlcp_outcome Simplex::treat(const Island& island, std::int32_t entering, Limits& limits, Counts& counts, Array<mlcp_pivot>* trace) {
-  const std::int32_t n = problem_->n();
-  const auto row = [&](std::int32_t o) { return o < 0 ? -1 : basis_.pattern->node[basis_.position(o)] - n; };
+mlcp_outcome Simplex::treat(const Island& island, std::int32_t entering, Array<mlcp_pivot>* trace) {
   const double sign = basis_.set.w[entering] < 0 ? 1 : -1, violation = std::abs(basis_.set.w[entering]);
   while (true) {
     const bool holds = std::abs(basis_.set.w[entering]) <= std::max(basis_.set.tolerance[entering], arrived * violation);
-    if (const mlcp_outcome stop = limits.check(counts, std::abs(basis_.set.w[entering])); stop != MLCP_SOLVED)
-      return leave(island, entering, stop, counts);
+    if (const mlcp_outcome stop = limits_.check(counts_, std::abs(basis_.set.w[entering])); stop != MLCP_SOLVED)
+      return leave(island, entering, stop);
     direction_.sign = sign;
-    find_direction(island, entering, counts);
+    find_direction(island, entering);
     if (holds && direction_.dependent) reverse(island);
-    Step step = holds && !direction_.dependent ? Step{0, entering, ActiveSet::active}
-                                               : ratio_test(island, basis_, direction_, entering, settings_->pivot_rule);
-    while (step.to == ActiveSet::active && step.blocking >= 0 && step.blocking != entering && depends(island, step.blocking, counts)) {
-      direction_.dw[step.blocking] = 0;  // was rounding: its w cannot change without that of the active rows
-      step = ratio_test(island, basis_, direction_, entering, settings_->pivot_rule);
+    const mlcp_pivot_rule rule = input_.settings.pivot_rule;
+    Step step = holds && !direction_.dependent ? Step{0, entering, ActiveSet::active} : ratio_test(island, basis_, direction_, entering, rule);
+    while (step.to == ActiveSet::active && step.blocking >= 0 && step.blocking != entering && depends(island, step.blocking)) {
+      basis_.work.slope[step.blocking] = 0;  // was rounding: its w cannot change without that of the active rows
+      step = ratio_test(island, basis_, direction_, entering, rule);
     }
-    ++counts.pivots;
-    if (trace)
-      trace->push_back({island_index_, row(entering), row(step.blocking),
-                        static_cast<mlcp_row_state>(step.to == ActiveSet::active     ? MLCP_ROW_ACTIVE
-                                                    : step.to == ActiveSet::at_upper ? MLCP_ROW_AT_UPPER
-                                                                                     : MLCP_ROW_AT_LOWER),
-                        direction_.dependent, step.length * direction_.sign, basis_.set.w[entering], direction_.schur});
+    ++counts_.pivots;
+    if (trace) record(*trace, entering, step);
     if (step.blocking < 0) {
-      if (certifying_ && certify(island, entering, counts)) return leave(island, entering, MLCP_INFEASIBLE, counts);
-      if (direction_.schur > lost_pivot) {  // no proof: then it is no dependence either, but a large mass ratio or a narrow wedge
-        dependent_ = std::max(lost_pivot, 0.5 * direction_.schur);
-        continue;
-      }
-      basis_.set.defer(entering);
-      return leave(island, entering, MLCP_SOLVED, counts);
+      bool again = false;
+      const mlcp_outcome outcome = stand_still(island, entering, again);
+      if (again) continue;
+      return outcome;
     }
     if (step.length > 0) advance(island, step.length);
-    if (step.blocking == entering) {
-      if (step.to == ActiveSet::active)
-        basis_.activate(island, entering, counts);
-      else
-        basis_.rest(entering, step.to);  // exactly at the bound
-      basis_.set.w[entering] = step.to == ActiveSet::active ? 0 : basis_.set.w[entering];
-      return MLCP_SOLVED;
-    }
-    if (step.to == ActiveSet::active) {
-      basis_.activate(island, step.blocking, counts);
-    } else {
-      basis_.deactivate(island, step.blocking, step.to, counts);
-    }
-    basis_.set.w[step.blocking] = 0;
+    if (step.to == ActiveSet::active)
+      basis_.activate(island, step.blocking, counts_);
+    else if (step.blocking == entering)
+      basis_.rest(entering, step.to);  // exactly at the bound
+    else
+      basis_.deactivate(island, step.blocking, step.to, counts_);
+    if (step.blocking != entering || step.to == ActiveSet::active) basis_.set.w[step.blocking] = 0;
+    if (step.blocking == entering) return MLCP_SOLVED;
   }
 }
 
 /// dx over the rows −= that of K⁻¹ K (0, dx): with the velocities at 0, where they belong, Jᵀy and Σy are what is left to correct.
-void Simplex::sharpen_certificate(const Island& island, Counts& counts) {
+void Simplex::sharpen_certificate(const Island& island) {
   const KktPattern& pattern = *basis_.pattern;
+  Workspace& work = basis_.work;
   for (std::int32_t q = island.first; q < island.last; ++q) {
-    if (!pattern.is_row(q)) direction_.dx[q] = 0;
-    residual_[q] = basis_.values.diagonal[q] * static_cast<long double>(direction_.dx[q]);
+    if (!pattern.is_row(q)) work.step[q] = 0;
+    work.residual[q] = basis_.values.diagonal[q] * static_cast<long double>(work.step[q]);
   }
   for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
-    const long double x = direction_.dx[basis_.position(o)];
+    const long double x = work.step[basis_.position(o)];
     if (x == 0) continue;
     for (std::int32_t t = pattern.row_pointers[o]; t < pattern.row_pointers[o + 1]; ++t)
-      residual_[pattern.row_columns[t]] += basis_.values.row[t] * x;
+      work.residual[pattern.row_columns[t]] += basis_.values.row[t] * x;
   }
-  for (std::int32_t q = island.first; q < island.last; ++q) rhs_[q] = static_cast<double>(residual_[q]);
-  basis_.factor.solve(island, rhs_.data(), counts.work);
+  for (std::int32_t q = island.first; q < island.last; ++q) work.rhs[q] = static_cast<double>(work.residual[q]);
+  basis_.factor.solve(island, work.rhs.data(), counts_.work);
   for (std::int32_t q = island.first; q < island.last; ++q)
-    if (pattern.is_row(q) && basis_.factor.in(q)) direction_.dx[q] -= rhs_[q];
+    if (pattern.is_row(q) && basis_.factor.in(q)) work.step[q] -= work.rhs[q];
 }
 
 /// y = change of the impulses along the step on which nothing blocks, sharpened, since Jᵀy = 0 is asked to 1e-12. Entries that ought to
 /// be 0 are rounding, and on a soft row Σy = 0 forgives none: more and more of the smallest are left out, until the rest is a proof.
-bool Simplex::certify(const Island& island, std::int32_t entering, Counts& counts) {
+bool Simplex::certify(const Island& island, std::int32_t entering) {
+  const auto part = [&](auto& array) { return array.span().subspan(island.first_row, certificate_rows_); };
   for (int attempt = 0; attempt < 3; ++attempt) {
-    if (attempt > 0) sharpen_certificate(island, counts);
+    if (attempt > 0) sharpen_certificate(island);
     for (const double negligible : {1e-15, 1e-14, 1e-13, 1e-12, 1e-11}) {
       collect_certificate(island, entering, negligible);
-      if (check_.holds(*problem_, enabled_, certificate_row.span(), certificate_y.span())) return true;
+      if (check_.holds(input_.problem, input_.enabled, part(basis_.work.certificate_row), part(basis_.work.certificate_y))) return true;
     }
   }
   return false;
@@ -245,32 +241,31 @@ bool Simplex::certify(const Island& island, std::int32_t entering, Counts& count
 
 void Simplex::collect_certificate(const Island& island, std::int32_t entering, double negligible) {
   const double per_unit = basis_.values.root_a[entering];
-  certificate_row.clear();
-  certificate_y.clear();
+  certificate_rows_ = 0;
   for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
     if (o != entering && basis_.set.state[o] != ActiveSet::active) continue;
-    const double y = -direction_.dx[basis_.position(o)];
+    const double y = -basis_.work.step[basis_.position(o)];
     // the ratio test has shown that a sign against the bounds is rounding
     const bool against = y > 0 ? basis_.values.hi[o] < infinity : basis_.values.lo[o] > -infinity;
     if (o != entering && (against || std::abs(y) * basis_.values.root_a[o] <= negligible * per_unit)) continue;
-    certificate_row.push_back(basis_.pattern->node[basis_.position(o)] - problem_->n());
-    certificate_y.push_back(y);
+    basis_.work.certificate_row[island.first_row + certificate_rows_] = basis_.pattern->node[basis_.position(o)] - input_.problem.n();
+    basis_.work.certificate_y[island.first_row + certificate_rows_++] = y;
   }
 }
 
-mlcp_outcome Simplex::solve(const Island& island, std::int32_t index, Limits& limits, Counts& counts, Array<mlcp_pivot>* trace) {
+mlcp_outcome Simplex::solve(const Island& island, std::int32_t index, Array<mlcp_pivot>* trace) {
   island_index_ = index;
   certifying_ = true;
-  return run(island, limits, counts, trace);
+  return run(island, trace);
 }
 
-void Simplex::settle(const Island& island, Limits& limits, Counts& counts) {
+void Simplex::settle(const Island& island) {
   constexpr double softness = 1e-7;
-  basis_.values.soften(*problem_, *basis_.pattern, island.first_row, island.last_row, softness);
+  basis_.values.soften(input_.problem, *basis_.pattern, island.first_row, island.last_row, softness);
   std::fill(basis_.set.deferred.begin() + island.first_row, basis_.set.deferred.begin() + island.last_row, 0);
   certifying_ = false;
-  run(island, limits, counts, nullptr);
-  basis_.values.soften(*problem_, *basis_.pattern, island.first_row, island.last_row, 0);
+  run(island, nullptr);
+  basis_.values.soften(input_.problem, *basis_.pattern, island.first_row, island.last_row, 0);
 }
 
 /// A nearly dependent pair of rows may replace each other for ever; then a row counts as dependent only at a smaller pivot.
@@ -278,24 +273,24 @@ void Simplex::tighten(const Island& island) {
   if (dependent_ <= lost_pivot) return;
   dependent_ *= 0.1;
   std::fill(basis_.set.deferred.begin() + island.first_row, basis_.set.deferred.begin() + island.last_row, 0);
-  std::fill(entered_.begin() + island.first_row, entered_.begin() + island.last_row, 0);
+  std::fill(basis_.work.entered.begin() + island.first_row, basis_.work.entered.begin() + island.last_row, 0);
   slack_tolerances(island, *basis_.pattern, basis_.values, basis_.zero(), basis_.set);
 }
 
 /// Risolvi_LCP.
-mlcp_outcome Simplex::run(const Island& island, Limits& limits, Counts& counts, Array<mlcp_pivot>* trace) {
+mlcp_outcome Simplex::run(const Island& island, Array<mlcp_pivot>* trace) {
   dependent_ = dependent_pivot;
-  std::fill(entered_.begin() + island.first_row, entered_.begin() + island.last_row, 0);
-  mlcp_outcome outcome = start(island, limits, counts);
+  std::fill(basis_.work.entered.begin() + island.first_row, basis_.work.entered.begin() + island.last_row, 0);
+  mlcp_outcome outcome = start(island);
   if (outcome != MLCP_SOLVED) return outcome;
   for (int round = 0; round < most_rounds; ++round) {
     for (std::int32_t k = entering_row(island); k >= 0; k = entering_row(island)) {
-      if (++entered_[k] > often) tighten(island);
-      outcome = treat(island, k, limits, counts, trace);
+      if (++basis_.work.entered[k] > often) tighten(island);
+      outcome = treat(island, k, trace);
       if (outcome != MLCP_SOLVED) break;
     }
     // the answer comes from the linear system of the final active set, not from the sum of the steps
-    settle_point(island, counts);
+    settle_point(island);
     if (outcome != MLCP_SOLVED || entering_row(island) < 0) break;
   }
   return outcome;

@@ -15,7 +15,7 @@ SolvedBasis::SolvedBasis(scenes::Problem problem, bool solve) : owner(std::move(
   } else {
     start.state.assign(p.m(), MLCP_ROW_ACTIVE);
   }
-  analysis.run(p, nullptr, {});
+  analysis.run(p, nullptr, true, {});
   basis.prepare(p, analysis, settings);
   basis.set.start(p, analysis.pattern, basis.values, nullptr, &start);
   for (const mlcp::Island& island : analysis.symbolic.islands) basis.refactorize(island, mlcp::lost_pivot, counts);

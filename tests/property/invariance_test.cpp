@@ -146,9 +146,9 @@ TEST_F(Invariance, WarmStartFromAnyMask) {
 
 TEST_F(Invariance, WarmStartFromTheAnswerNeedsNoPivot) {
   check(40000, 1000, [](const mlcp::Problem& p, Random&) {
-    const Solution first = solve(p);
+    const Solution first = solve(p, settings());
     const mlcp::Mask answer = mask_of(first.state);
-    const Solution again = solve(p, nullptr, &answer);
+    const Solution again = solve(p, settings(), nullptr, &answer);
     EXPECT_EQ(fault(dense(p), again), "");
     // which of several dependent joints is in the factor, the mask does not tell
     bool told = true;
@@ -175,17 +175,19 @@ TEST_F(Invariance, RefactorizedAtEveryPivot) {
 TEST_F(Invariance, SolverThatHasSolvedBefore) {
   for (std::uint64_t seed = 70000; seed < 70000u + rounds(200) && !HasFailure(); ++seed) {
     Random random(seed);
-    mlcp::Solver solver(settings(), mlcp::Memory());
+    mlcp::Settings how = random.chance(0.5) ? settings() : mlcp::default_settings();
+    how.warm_start = 0;
+    mlcp::Solver solver(how, mlcp::Memory());
     mlcp::Problem problem = any_problem(random);
     for (int step = 0; step < 8; ++step) {
       if (random.chance(0.3)) problem = any_problem(random);
       Eigen::VectorXd k(problem.n());
       for (int j = 0; j < problem.n(); ++j) k[j] = random.uniform();
       set_k(problem, k);
-      const Solution warm = solve(solver, problem), cold = solve(problem);
-      ASSERT_EQ(warm.report.outcome, cold.report.outcome) << evidence("reused_solver", seed, problem, settings());
-      ASSERT_EQ(warm.v, cold.v) << evidence("reused_solver", seed, problem, settings());
-      ASSERT_EQ(warm.gamma, cold.gamma) << evidence("reused_solver", seed, problem, settings());
+      const Solution warm = solve(solver, problem), cold = solve(problem, how);
+      ASSERT_EQ(warm.report.outcome, cold.report.outcome) << evidence("reused_solver", seed, problem, how);
+      ASSERT_EQ(warm.v, cold.v) << evidence("reused_solver", seed, problem, how);
+      ASSERT_EQ(warm.gamma, cold.gamma) << evidence("reused_solver", seed, problem, how);
     }
   }
 }

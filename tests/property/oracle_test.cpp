@@ -31,17 +31,21 @@ std::string disagreement(const mlcp::Problem& problem, const mlcp::Mask* enabled
   return wrong;
 }
 
-/// Either pivot rule, with and without toggles, from nothing and from a random start.
+/// Either pivot rule, with and without toggles, from nothing and from a random start; and newton and auto from the same.
 void agree(std::uint64_t seed, const mlcp::Problem& problem, const mlcp::Mask* enabled, Random& random, Tally& tally) {
   const mlcp::Mask start = random_mask(random, problem.m());
   const auto rule = static_cast<mlcp_pivot_rule>(random.integer(0, 1));
   const auto refactorize = static_cast<mlcp_refactorize>(random.chance(0.2));
   const mlcp::Mask* from = random.chance(0.5) ? &start : nullptr;
-  const mlcp::Settings how = settings(rule, refactorize);
-  const std::string wrong = disagreement(problem, enabled, from, how, tally);
-  if (!wrong.empty())
-    ADD_FAILURE() << "pivot rule " << rule << ", refactorize " << refactorize << ": " << wrong << '\n'
-                  << evidence("oracle", seed, problem, how, enabled, from);
+  mlcp::Settings how = settings(rule, refactorize);
+  for (const mlcp_method method : {MLCP_METHOD_SIMPLEX, MLCP_METHOD_NEWTON, MLCP_METHOD_AUTO}) {
+    how.method = method;
+    Tally uncounted;
+    const std::string wrong = disagreement(problem, enabled, from, how, method == MLCP_METHOD_SIMPLEX ? tally : uncounted);
+    if (!wrong.empty())
+      ADD_FAILURE() << "method " << method << ", pivot rule " << rule << ", refactorize " << refactorize << ": " << wrong << '\n'
+                    << evidence("oracle", seed, problem, how, enabled, from);
+  }
 }
 
 void agree_on(const Shape& shape, int count, std::uint64_t first_seed, int least_solved, int least_infeasible) {

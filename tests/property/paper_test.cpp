@@ -205,7 +205,7 @@ TEST(PaperTheorem2, StackedBoxes) {
         }
     expect_finite(p);
     ASSERT_FALSE(testing::Test::HasFatalFailure()) << boxes;
-    for (const double v : solve(p).v) ASSERT_NEAR(v, 0, 1e-12);
+    for (const double v : solve(p, settings()).v) ASSERT_NEAR(v, 0, 1e-12);
   }
 }
 

@@ -16,6 +16,7 @@ std::vector<T> copy(const mlcp::Array<T>& a) {
 
 mlcp::Settings settings(mlcp_pivot_rule rule, mlcp_refactorize refactorize) {
   mlcp::Settings s = mlcp::default_settings();
+  s.method = MLCP_METHOD_SIMPLEX;
   s.pivot_rule = rule;
   s.refactorize = refactorize;
   return s;

@@ -19,6 +19,7 @@ struct Solution {
   std::vector<mlcp_pivot> trace;
 };
 
+/// Of the simplex.
 mlcp::Settings settings(mlcp_pivot_rule rule = MLCP_PIVOT_DUAL, mlcp_refactorize refactorize = MLCP_REFACTORIZE_WHEN_NEEDED);
 Solution solve(const mlcp::Problem& problem, const mlcp::Settings& settings, const mlcp::Mask* enabled = nullptr,
                const mlcp::Mask* start = nullptr);

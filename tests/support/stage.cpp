@@ -54,7 +54,7 @@ std::vector<int> tree_of(const Pattern& L) {
 
 Stage::Stage(const mlcp::Problem& problem, const mlcp::Mask* enabled)
     : analysis(mlcp::Memory()), values(mlcp::Memory()), factor(mlcp::Memory()) {
-  analysis.run(problem, enabled, {});
+  analysis.run(problem, enabled, true, {});
   values.load(problem, analysis.pattern);
   factor.prepare(analysis.pattern, analysis.symbolic, values);
   islands_.assign(analysis.symbolic.islands.begin(), analysis.symbolic.islands.end());

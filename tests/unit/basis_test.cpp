@@ -20,7 +20,7 @@ struct Based {
 
   explicit Based(mlcp::Problem p, const mlcp::Mask* start = nullptr, mlcp::Settings s = mlcp::default_settings())
       : problem(std::move(p)), settings(s) {
-    analysis.run(problem, nullptr, {});
+    analysis.run(problem, nullptr, true, {});
     basis.prepare(problem, analysis, settings);
     basis.set.start(problem, analysis.pattern, basis.values, nullptr, start);
     EXPECT_TRUE(basis.refactorize(island(), mlcp::lost_pivot, counts));
@@ -96,10 +96,32 @@ TEST(Basis, RowsBeyondTheirBoundsRestOnTheSideThatTheyLeft) {
   const mlcp::Mask start = mask_of({MLCP_ROW_ACTIVE, MLCP_ROW_ACTIVE});
   Based b(std::move(p), &start);
   b.basis.solve_point(b.island(), b.counts);
-  const std::vector<std::int32_t> both{b.ordinal(0), b.ordinal(1)};
-  b.basis.deactivate_all(b.island(), both, b.counts);
-  EXPECT_EQ(b.state(0), Set::at_upper) << "γ was 5";
-  EXPECT_EQ(b.state(1), Set::at_lower) << "γ was −5";
+  const std::vector<mlcp::Flip> both{{b.ordinal(0), Set::at_upper}, {b.ordinal(1), Set::at_lower}};
+  EXPECT_EQ(b.basis.change(b.island(), both, mlcp::dependent_pivot, b.counts), 0);
+  EXPECT_EQ(b.state(0), Set::at_upper);
+  EXPECT_EQ(b.state(1), Set::at_lower);
+  b.expect_in_step();
+}
+
+TEST(Basis, ChangesInBothDirectionsAtOnce) {
+  const mlcp::Mask start = mask_of({MLCP_ROW_ACTIVE, MLCP_ROW_AT_LOWER, MLCP_ROW_ACTIVE});
+  Based b(column(), &start);
+  const std::vector<mlcp::Flip> flips{{b.ordinal(0), Set::at_lower}, {b.ordinal(1), Set::active}};
+  EXPECT_EQ(b.basis.change(b.island(), flips, mlcp::dependent_pivot, b.counts), 0);
+  EXPECT_EQ(b.state(0), Set::at_lower);
+  EXPECT_EQ(b.state(1), Set::active);
+  EXPECT_EQ(b.state(2), Set::active);
+  b.expect_in_step();
+}
+
+TEST(Basis, ChangeLeavesADependentRowAtRestAndSaysSo) {
+  mlcp::Problem p = column();
+  add_row(p, {{0, 1}});  // the first row again
+  const mlcp::Mask start = mask_of({MLCP_ROW_ACTIVE, MLCP_ROW_ACTIVE, MLCP_ROW_ACTIVE, MLCP_ROW_AT_LOWER});
+  Based b(std::move(p), &start);
+  const std::vector<mlcp::Flip> flips{{b.ordinal(3), Set::active}};
+  EXPECT_EQ(b.basis.change(b.island(), flips, mlcp::dependent_pivot, b.counts), 1);
+  EXPECT_EQ(b.state(3), Set::at_lower);
   b.expect_in_step();
 }
 

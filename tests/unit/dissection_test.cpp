@@ -17,7 +17,9 @@ struct Cut {
   explicit Cut(const mlcp::Problem& problem) {
     mlcp::Selection selection{mlcp::Memory()};
     selection.take(problem, nullptr);
-    graph.build(problem, selection);
+    mlcp::Crowding crowding{mlcp::Memory()};
+    crowding.find(problem, selection, true);
+    graph.build(problem, selection, crowding);
     dissection.cut(graph);
   }
 };

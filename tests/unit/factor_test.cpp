@@ -80,7 +80,7 @@ TEST(Factor, ZeroVelocityPivotIsReported) {
   add_row(p, {{0, 1}, {1, 1}});
   Stage stage(p);
   EXPECT_EQ(stage.factorize({0, 0, 0, 0}), mlcp::FactorStatus::not_positive_definite);
-  const int node = stage.pattern().node[stage.factor.failed_position()];
+  const int node = stage.pattern().node[stage.factor.failed_position(stage.islands()[0])];
   EXPECT_EQ(p.body_of[node], 1);
 }
 

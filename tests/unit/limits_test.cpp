@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <thread>
 #include <vector>
 
 namespace support {
@@ -18,54 +19,57 @@ std::int32_t hear(void* context, const mlcp_progress* progress) {
   return static_cast<int>(heard->calls.size()) == heard->stop_at;
 }
 
-TEST(Limits, NothingSetStopsAfterFiftyPivotsARow) {
+mlcp::Settings with_iterations(std::int64_t most) {
+  mlcp::Settings settings = mlcp::default_settings();
+  settings.max_iterations = most;
+  return settings;
+}
+
+TEST(Limits, NothingSetStopsAfterTheMethodsOwnNumber) {
   const mlcp::Settings settings = mlcp::default_settings();
-  mlcp::Limits limits(settings);
-  limits.enter_island(0, 4);
+  mlcp::Watch watch(settings);
+  mlcp::Limits limits(watch, 0, 1, 700);
   mlcp::Counts counts;
   EXPECT_EQ(limits.check(counts, 1), MLCP_SOLVED);
-  counts.pivots = 50 * (4 + 10) - 1;
+  counts.pivots = 699;
   EXPECT_EQ(limits.check(counts, 1), MLCP_SOLVED);
   ++counts.pivots;
   EXPECT_EQ(limits.check(counts, 1), MLCP_ITERATION_LIMIT);
 }
 
-TEST(Limits, PivotsAreCountedByIsland) {
-  mlcp::Settings settings = mlcp::default_settings();
-  settings.max_iterations = 5;
-  mlcp::Limits limits(settings);
+TEST(Limits, IterationsAreCountedFromTheRestart) {
+  const mlcp::Settings settings = with_iterations(5);
+  mlcp::Watch watch(settings);
+  mlcp::Limits limits(watch, 0, 2, 700);
   mlcp::Counts counts;
-  limits.enter_island(0, 1);
-  EXPECT_EQ(limits.check(counts, 1), MLCP_SOLVED);
   counts.pivots = 5;
   EXPECT_EQ(limits.check(counts, 1), MLCP_ITERATION_LIMIT);
-  limits.enter_island(1, 1);
-  EXPECT_EQ(limits.check(counts, 1), MLCP_SOLVED) << "one bad island spoils no other";
+  limits.restart(counts);
+  EXPECT_EQ(limits.check(counts, 1), MLCP_SOLVED);
   counts.pivots = 10;
   EXPECT_EQ(limits.check(counts, 1), MLCP_ITERATION_LIMIT);
+  EXPECT_EQ(mlcp::Limits(watch, 1, 2, 700).check({}, 1), MLCP_SOLVED) << "one bad island spoils no other";
 }
 
-TEST(Limits, WorkStopsTheWholeSolve) {
+TEST(Limits, WorkIsCountedByIsland) {
   mlcp::Settings settings = mlcp::default_settings();
   settings.max_work = 100;
-  mlcp::Limits limits(settings);
+  mlcp::Watch watch(settings);
+  mlcp::Limits limits(watch, 0, 2, 700);
   mlcp::Counts counts;
-  limits.enter_island(0, 1);
   counts.work = 99;
   EXPECT_EQ(limits.check(counts, 1), MLCP_SOLVED);
   counts.work = 100;
   EXPECT_EQ(limits.check(counts, 1), MLCP_WORK_LIMIT);
-  limits.enter_island(1, 1);
-  counts.work = 0;
-  EXPECT_EQ(limits.check(counts, 1), MLCP_WORK_LIMIT);
+  EXPECT_EQ(mlcp::Limits(watch, 1, 2, 700).check({}, 1), MLCP_SOLVED) << "or the answer would depend on the threads";
 }
 
-TEST(Limits, TimeThatHasPassed) {
+TEST(Limits, TimeThatHasPassedStopsEveryIsland) {
   mlcp::Settings settings = mlcp::default_settings();
   settings.max_seconds = 1e-12;
-  mlcp::Limits limits(settings);
-  limits.enter_island(0, 1);
-  EXPECT_EQ(limits.check({}, 1), MLCP_TIME_LIMIT);
+  mlcp::Watch watch(settings);
+  EXPECT_EQ(mlcp::Limits(watch, 0, 2, 700).check({}, 1), MLCP_TIME_LIMIT);
+  EXPECT_EQ(mlcp::Limits(watch, 1, 2, 700).check({}, 1), MLCP_TIME_LIMIT);
 }
 
 TEST(Limits, ProgressHearsWhatIsAndMayStop) {
@@ -74,9 +78,8 @@ TEST(Limits, ProgressHearsWhatIsAndMayStop) {
   mlcp::Settings settings = mlcp::default_settings();
   settings.progress = hear;
   settings.progress_context = &heard;
-  mlcp::Limits limits(settings);
-  limits.set_islands(7);
-  limits.enter_island(3, 1000);
+  mlcp::Watch watch(settings);
+  mlcp::Limits limits(watch, 3, 7, 700);
   mlcp::Counts counts;
   counts.pivots = 11;
   counts.work = 22;
@@ -92,9 +95,18 @@ TEST(Limits, ProgressHearsWhatIsAndMayStop) {
   for (int s = 0; s < 1000 && outcome == MLCP_SOLVED; ++s) outcome = limits.check(counts, 0.5);
   EXPECT_EQ(outcome, MLCP_INTERRUPTED);
   EXPECT_EQ(heard.calls.size(), 2u);
-  limits.enter_island(4, 1);
-  EXPECT_EQ(limits.check(counts, 0.5), MLCP_INTERRUPTED);
+  EXPECT_EQ(mlcp::Limits(watch, 4, 7, 700).check(counts, 0.5), MLCP_INTERRUPTED);
   EXPECT_EQ(heard.calls.size(), 2u) << "not asked again";
+}
+
+TEST(Limits, ProgressIsHeardOnTheThreadThatStartedTheSolve) {
+  Heard heard;
+  mlcp::Settings settings = mlcp::default_settings();
+  settings.progress = hear;
+  settings.progress_context = &heard;
+  mlcp::Watch watch(settings);
+  std::thread([&] { EXPECT_EQ(mlcp::Limits(watch, 0, 1, 700).check({}, 1), MLCP_SOLVED); }).join();
+  EXPECT_TRUE(heard.calls.empty());
 }
 
 }  // namespace

@@ -24,7 +24,9 @@ std::vector<int> order_of(const mlcp::Problem& problem) {
   mlcp::Selection selection{mlcp::Memory()};
   selection.take(problem, nullptr);
   mlcp::QuotientGraph graph{mlcp::Memory()};
-  graph.build(problem, selection);
+  mlcp::Crowding crowding{mlcp::Memory()};
+  crowding.find(problem, selection, true);
+  graph.build(problem, selection, crowding);
   mlcp::Dissection one{mlcp::Memory()};
   one.home.assign(graph.variables, 0);
   one.parent.push_back(-1);
@@ -178,7 +180,9 @@ TEST(MinimumDegree, RowWaitsForItsVelocities) {
     mlcp::Selection selection{mlcp::Memory()};
     selection.take(p, nullptr);
     mlcp::QuotientGraph g{mlcp::Memory()};
-    g.build(p, selection);
+    mlcp::Crowding crowding{mlcp::Memory()};
+    crowding.find(p, selection, true);
+    g.build(p, selection, crowding);
     const std::vector<int> order = order_of(p);
     expect_permutation(order, g.variables);
     ASSERT_FALSE(HasFailure()) << "seed " << seed;

@@ -12,16 +12,18 @@ namespace {
 
 struct Ordered {
   mlcp::Selection selection{mlcp::Memory()};
+  mlcp::Crowding crowding{mlcp::Memory()};
   mlcp::Ordering ordering{mlcp::Memory()};
   std::vector<std::int32_t> order;
 
   explicit Ordered(const mlcp::Problem& problem, const mlcp::Mask* enabled = nullptr) {
     selection.take(problem, enabled);
-    ordering.compute(problem, selection);
+    crowding.find(problem, selection, true);
+    ordering.compute(problem, selection, crowding);
     order.assign(ordering.order.begin(), ordering.order.end());
   }
   bool accepts(const mlcp::Problem& problem, const std::vector<std::int32_t>& imposed) {
-    return ordering.accept(problem, selection, imposed);
+    return ordering.accept(problem, selection, crowding, imposed);
   }
 };
 

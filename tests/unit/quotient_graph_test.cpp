@@ -15,7 +15,9 @@ mlcp::QuotientGraph graph_of(const mlcp::Problem& problem, const mlcp::Mask* ena
   mlcp::Selection selection{mlcp::Memory()};
   selection.take(problem, enabled);
   mlcp::QuotientGraph graph{mlcp::Memory()};
-  graph.build(problem, selection);
+  mlcp::Crowding crowding{mlcp::Memory()};
+  crowding.find(problem, selection, true);
+  graph.build(problem, selection, crowding);
   return graph;
 }
 

@@ -14,16 +14,16 @@ struct Rows {
   mlcp::Problem problem = empty_problem();
   mlcp::Analysis analysis{mlcp::Memory()};
   mlcp::Basis basis{mlcp::Memory()};
-  mlcp::Direction direction{mlcp::Memory()};
+  mlcp::Direction direction;
   mlcp::Settings settings = mlcp::default_settings();
 
   explicit Rows(const std::vector<Bounds>& bounds) {
     add_body(problem, 1, 1);
     for (const Bounds& b : bounds) add_row(problem, {{0, 1}}, 0, b);
-    analysis.run(problem, nullptr, {});
+    analysis.run(problem, nullptr, true, {});
     basis.prepare(problem, analysis, settings);
-    direction.dx.assign(analysis.pattern.size(), 0.0);
-    direction.dw.assign(problem.m(), 0.0);
+    basis.work.step.assign(analysis.pattern.size(), 0.0);
+    basis.work.slope.assign(problem.m(), 0.0);
     for (int i = 0; i < problem.m(); ++i) basis.set.tolerance[ordinal(i)] = bounds[i].lo == bounds[i].hi ? mlcp::infinity : 1e-12;
   }
   int ordinal(int row) const { return analysis.pattern.row_ordinal[analysis.pattern.position[problem.n() + row]]; }
@@ -33,8 +33,8 @@ struct Rows {
     basis.set.w[ordinal(row)] = w;
   }
   void move(int row, double gamma, double w) {
-    direction.dx[basis.position(ordinal(row))] = -gamma;
-    direction.dw[ordinal(row)] = w;
+    basis.work.step[basis.position(ordinal(row))] = -gamma;
+    basis.work.slope[ordinal(row)] = w;
   }
   mlcp::Step step(int entering, mlcp_pivot_rule rule = MLCP_PIVOT_DUAL) {
     mlcp::Step s = mlcp::ratio_test(analysis.symbolic.islands[0], basis, direction, ordinal(entering), rule);

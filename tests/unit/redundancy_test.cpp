@@ -24,13 +24,20 @@ mlcp::Problem table(const std::vector<std::pair<double, double>>& legs) {
 const std::vector<std::pair<double, double>> four_legs{{1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
 
 TEST(Redundancy, FourthLegOfATable) {
-  const Solution s = solve(table(four_legs));
+  const Solution s = solve(table(four_legs), settings());
   EXPECT_EQ(fault(dense(table(four_legs)), s), "");
   EXPECT_EQ(count(s), s.report.redundant_rows);
   EXPECT_EQ(count(s), 1);
   for (int i = 0; i < 4; ++i) {
     EXPECT_FALSE(s.redundant[i] && s.state[i] == MLCP_ROW_ACTIVE);
   }
+}
+
+TEST(Redundancy, NewtonFindsTheLegToo) {
+  const Solution s = solve(table(four_legs));
+  EXPECT_EQ(fault(dense(table(four_legs)), s), "");
+  EXPECT_EQ(s.report.method, MLCP_METHOD_NEWTON);
+  EXPECT_EQ(count(s), 1);
 }
 
 TEST(Redundancy, ThreeLegsNeedEachOther) {

@@ -152,7 +152,7 @@ TEST(Solver, SameInputSameBits) {
 TEST(Solver, IterationLimitTellsTheTruth) {
   Random random(5);
   const mlcp::Problem p = random_chain(random, 30, 3, 1);
-  mlcp::Settings how = mlcp::default_settings();
+  mlcp::Settings how = settings();
   how.max_iterations = 1;
   const Solution s = solve(p, how);
   EXPECT_EQ(s.report.outcome, MLCP_ITERATION_LIMIT);
@@ -165,8 +165,8 @@ TEST(Solver, IterationLimitTellsTheTruth) {
 TEST(Solver, WorkLimitIsTheSameEverywhere) {
   Random random(6);
   const mlcp::Problem p = random_chain(random, 30, 3, 1);
-  mlcp::Settings how = mlcp::default_settings();
-  how.max_work = solve(p).report.work / 2;
+  mlcp::Settings how = settings();
+  how.max_work = solve(p, how).report.work / 2;
   const Solution s = solve(p, how), t = solve(p, how);
   EXPECT_EQ(s.report.outcome, MLCP_WORK_LIMIT);
   EXPECT_EQ(s.v, t.v);
@@ -184,7 +184,7 @@ TEST(Solver, LooseToleranceAcceptsWhatALimitLeft) {
 TEST(Solver, TraceHasEveryPivot) {
   Random random(7);
   const mlcp::Problem p = random_chain(random, 20, 2, 1);
-  mlcp::Settings how = mlcp::default_settings();
+  mlcp::Settings how = settings();
   EXPECT_TRUE(solve(p, how).trace.empty());
   how.trace = 1;
   const Solution s = solve(p, how);

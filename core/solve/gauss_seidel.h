@@ -1,0 +1,32 @@
+#pragma once
+#include "factorize/mass_response.h"
+#include "solve/basis.h"
+
+namespace mlcp {
+
+/// Projected Gauss-Seidel over the rows of an island (Moreau 1999; Jourdan, Alart & Jean 1998): each row in turn takes the impulse that makes
+/// its own slack zero, within its bounds, and the velocities follow at once. Linear convergence at best: a first guess for the others,
+/// or an answer of low accuracy.
+class GaussSeidel {
+ public:
+  GaussSeidel(Basis& basis, Limits& limits, Counts& counts) : basis_(basis), limits_(limits), counts_(counts) {}
+
+  /// false: M couples too many velocities, or is not positive definite; nothing has changed.
+  bool prepare(const Island& island);
+  /// Sweeps until hardly a row leaves or reaches a bound any more, and puts the rows where their impulses are.
+  void guess(const Island& island);
+  /// Sweeps until every error is within the tolerance.
+  mlcp_outcome solve(const Island& island, double tolerance);
+
+ private:
+  void start(const Island& island);
+  std::int32_t sweep(const Island& island);
+  double error(const Island& island);
+  void settle(const Island& island);
+
+  Basis& basis_;
+  Limits& limits_;
+  Counts& counts_;
+};
+
+}  // namespace mlcp

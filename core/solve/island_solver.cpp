@@ -1,0 +1,130 @@
+#include "solve/island_solver.h"
+
+#include "solve/gauss_seidel.h"
+#include "solve/newton.h"
+#include "solve/redundancy.h"
+#include "solve/simplex.h"
+
+namespace mlcp {
+namespace {
+
+/// Islands of so few rows are pivoted: each step is a solve that Newton needs too.
+constexpr std::int32_t few_rows = 2;
+/// A guess by Gauss-Seidel pays where a row's response is about as short as the row: bodies, not robots.
+constexpr std::int64_t short_response = 24;
+
+/// One island on its way through the methods.
+class Run {
+ public:
+  Run(const SolveInput& input, Basis& basis, CertificateCheck& check, Watch& watch, std::int32_t index, IslandEnd& end)
+      : input_(input), basis_(basis), check_(check), island_(basis.factor.symbolic().islands[index]), index_(index), end_(end),
+        rows_(island_.last_row - island_.first_row),
+        limits_(watch, index, static_cast<std::int32_t>(basis.factor.symbolic().islands.size()), 50 * (static_cast<std::int64_t>(rows_) + 10)) {}
+
+  void solve(bool warm, Array<mlcp_pivot>* trace) {
+    const mlcp_method method = input_.settings.method;
+    if (!island_.crowded && (method == MLCP_METHOD_SIMPLEX || rows_ == 0 || (method == MLCP_METHOD_AUTO && rows_ <= few_rows))) {
+      pivot(trace);
+      return;
+    }
+    if (method == MLCP_METHOD_PGS && sweep()) return;
+    if (newton(warm)) return;
+    end_.gave_up = true;
+    end_.crowded = island_.crowded;
+    if (island_.crowded) return;
+    limits_.restart(end_.counts);
+    pivot(trace);
+    if (end_.outcome != MLCP_ITERATION_LIMIT) return;
+    restart();
+    pivot(trace);
+  }
+
+ private:
+  void pivot(Array<mlcp_pivot>* trace) {
+    Simplex simplex(input_, basis_, check_, limits_, end_.counts);
+    end_.method = MLCP_METHOD_SIMPLEX;
+    end_.epsilon = 0;
+    end_.outcome = simplex.solve(island_, index_, trace);
+    if (end_.outcome == MLCP_INFEASIBLE) {
+      end_.certificate_rows = simplex.certificate_rows();
+      limits_.restart(end_.counts);
+      simplex.settle(island_);
+    } else if (end_.outcome == MLCP_NOT_POSITIVE_DEFINITE) {
+      end_.indefinite = basis_.factor.failed_position(island_);
+    }
+  }
+
+  bool sweep() {
+    GaussSeidel sweeps(basis_, limits_, end_.counts);
+    if (!sweeps.prepare(island_)) return false;
+    end_.method = MLCP_METHOD_PGS;
+    end_.outcome = sweeps.solve(island_, input_.settings.tolerance);
+    return true;
+  }
+
+  /// false: it gave up.
+  bool newton(bool warm) {
+    if (!warm && guessable()) {
+      GaussSeidel sweeps(basis_, limits_, end_.counts);
+      if (sweeps.prepare(island_)) sweeps.guess(island_);
+    }
+    Newton newton(basis_, limits_, end_.counts);
+    end_.method = MLCP_METHOD_NEWTON;
+    end_.outcome = newton.solve(island_);
+    end_.epsilon = newton.epsilon();
+    if (end_.outcome == MLCP_NOT_POSITIVE_DEFINITE) end_.indefinite = basis_.factor.failed_position(island_);
+    return end_.outcome != MLCP_ITERATION_LIMIT;
+  }
+
+  bool guessable() const {
+    const MassParts& parts = basis_.response.parts();
+    const std::int64_t entries = parts.response_pointers[island_.last_row] - parts.response_pointers[island_.first_row];
+    return rows_ > few_rows && entries > 0 && entries <= short_response * rows_;
+  }
+
+  /// Back to rows at rest, but those that may push both ways.
+  void restart() {
+    limits_.restart(end_.counts);
+    for (std::int32_t o = island_.first_row; o < island_.last_row; ++o) {
+      if (basis_.set.state[o] == ActiveSet::disabled) continue;
+      basis_.set.deferred[o] = 0;
+      const double lo = basis_.values.lo[o], hi = basis_.values.hi[o];
+      if (lo < 0 && hi > 0)
+        basis_.set.state[o] = ActiveSet::active;
+      else
+        basis_.rest(o, ActiveSet::resting(lo, hi));
+    }
+  }
+
+  const SolveInput& input_;
+  Basis& basis_;
+  CertificateCheck& check_;
+  const Island& island_;
+  const std::int32_t index_;
+  IslandEnd& end_;
+  const std::int32_t rows_;
+  Limits limits_;
+};
+
+}  // namespace
+
+IslandEnd solve_island(const SolveInput& input, Basis& basis, CertificateCheck& check, Watch& watch, std::int32_t index, bool warm,
+                       Array<mlcp_pivot>* trace) {
+  IslandEnd end;
+  Run(input, basis, check, watch, index, end).solve(warm, trace);
+  return end;
+}
+
+void finish_island(const SolveInput& input, Basis& basis, Watch& watch, std::int32_t index, std::uint8_t* redundant, IslandEnd& end) {
+  if (end.outcome != MLCP_SOLVED && end.outcome != MLCP_ITERATION_LIMIT) return;
+  if (end.crowded || end.method == MLCP_METHOD_PGS) return;
+  const Island& island = basis.factor.symbolic().islands[index];
+  const bool dependent = mark_redundant(island, basis, end.epsilon, input.problem.n(), redundant, end.counts);
+  if (input.settings.impulses != MLCP_IMPULSES_LEAST_NORM || !dependent || end.outcome != MLCP_SOLVED) return;
+  Limits limits(watch, index, 1, 50 * (static_cast<std::int64_t>(island.last_row - island.first_row) + 10));
+  limits.restart(end.counts);
+  Newton newton(basis, limits, end.counts);
+  newton.least_norm(island);
+}
+
+}  // namespace mlcp

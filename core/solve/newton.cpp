@@ -1,0 +1,177 @@
+#include "solve/newton.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mlcp {
+namespace {
+
+/// Full steps may go on so often without fewer changes than ever before.
+constexpr int patience = 3;
+/// Refined points as good as this are judged row by row; worse ones stand on a factor that cannot be trusted.
+constexpr double refined = 1e-13;
+constexpr double sharp_epsilon = 1e-8, first_epsilon = 1e-2, reduction = 0.3;
+constexpr int most_descents = 30, most_inner_steps = 60;
+/// Of the largest Mⱼⱼ, where M is only semidefinite.
+constexpr double semidefinite_delta = 1e-8;
+
+}  // namespace
+
+/// The active set is one to go back to: the start, or one that solved a problem nearby.
+void Newton::keep(const Island& island) {
+  std::copy(basis_.set.state.begin() + island.first_row, basis_.set.state.begin() + island.last_row, basis_.work.state.begin() + island.first_row);
+}
+
+/// Full steps until no row changes.
+Newton::Ending Newton::full_steps(const Island& island, double drop) {
+  std::size_t fewest = SIZE_MAX;
+  for (int left = patience;;) {
+    stopped_ = limits_.check(counts_, 0);
+    if (stopped_ != MLCP_SOLVED) return Ending::stopped;
+    proximal_.newton_point(island);
+    const auto flips = proximal_.flips_of_full_step(island);
+    ++counts_.pivots;
+    if (flips.empty()) {
+      keep(island);
+      return Ending::settled;
+    }
+    if (flips.size() < fewest) {
+      fewest = flips.size();
+      left = patience;
+    } else if (--left < 0) {
+      return Ending::stuck;
+    }
+    if (basis_.change(island, flips, drop, counts_) > 0 && drop > 0) return Ending::dependent;
+  }
+}
+
+/// settled: the refined point of the active set solves the problem itself. stuck: it does not, or flips_ tells which rows must change.
+Newton::Ending Newton::finish(const Island& island) {
+  const double error = basis_.refine(island, counts_);
+  flips_ = proximal_.flips_of_point(island);
+  return flips_.empty() && error <= refined && empty_rows_hold(island) ? Ending::settled : Ending::stuck;
+}
+
+/// Rows that no impulse can move (a = 0) are none of Newton's, but they may be violated.
+bool Newton::empty_rows_hold(const Island& island) const {
+  const ActiveSet& set = basis_.set;
+  for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
+    if (basis_.values.a[o] > 0 || set.state[o] == ActiveSet::disabled) continue;
+    const double w = set.w[o], zero = set.tolerance[o];
+    if (set.state[o] == ActiveSet::at_lower ? w < -zero : set.state[o] == ActiveSet::at_upper ? w > zero : std::abs(w) > zero) return false;
+  }
+  return true;
+}
+
+Newton::Ending Newton::exact(const Island& island) {
+  const auto active = [&] { return std::count(basis_.set.state.begin() + island.first_row, basis_.set.state.begin() + island.last_row, ActiveSet::active); };
+  const auto wanted = active();
+  if (!proximal_.soften(island, 0, 0, dependent_pivot)) return Ending::indefinite;
+  if (active() < wanted) return Ending::dependent;
+  constexpr int most_rounds = 5;  // rounding may move a row once more
+  for (int round = 0; round < most_rounds; ++round) {
+    const Ending ending = full_steps(island, dependent_pivot);
+    if (ending != Ending::settled) return ending;
+    if (finish(island) == Ending::settled) return Ending::settled;
+    if (flips_.empty()) return Ending::stuck;
+    if (basis_.change(island, flips_, dependent_pivot, counts_) > 0) return Ending::dependent;
+  }
+  return Ending::stuck;
+}
+
+bool Newton::soften(const Island& island, double epsilon) {
+  if (proximal_.soften(island, epsilon, delta_, 0)) return true;
+  if (delta_ > 0) return false;
+  delta_ = semidefinite_delta;
+  return proximal_.soften(island, epsilon, delta_, 0);
+}
+
+Newton::Ending Newton::sharp(const Island& island, int rounds) {
+  if (!soften(island, sharp_epsilon)) return Ending::indefinite;
+  for (int round = 0; round < rounds; ++round) {
+    const Ending ending = full_steps(island, 0);
+    if (ending != Ending::settled) return ending;
+    proximal_.center_here(island);
+    if (finish(island) == Ending::settled) return Ending::settled;
+  }
+  return Ending::stuck;
+}
+
+/// Newton steps with line search until the proximal problem is solved: the active set stays and the step is whole.
+Newton::Ending Newton::minimise(const Island& island) {
+  for (int step = 0; step < most_inner_steps; ++step) {
+    stopped_ = limits_.check(counts_, 0);
+    if (stopped_ != MLCP_SOLVED) return Ending::stopped;
+    const auto flips = proximal_.flips_of_descent(island);
+    if (step > 0 && flips.empty()) {
+      keep(island);
+      return Ending::settled;
+    }
+    basis_.change(island, flips, 0, counts_);
+    proximal_.descend(island);
+    ++counts_.pivots;
+  }
+  return Ending::stuck;
+}
+
+Newton::Ending Newton::descent(const Island& island) {
+  double epsilon = first_epsilon;
+  if (!soften(island, epsilon)) return Ending::indefinite;
+  proximal_.newton_point(island);
+  proximal_.start_descent(island);
+  for (int outer = 0; outer < most_descents; ++outer) {
+    const std::int64_t before = counts_.pivots;
+    const Ending ending = minimise(island);
+    if (ending == Ending::stopped) return ending;
+    proximal_.recenter(island);
+    // solved in one step: the active set is likely the last one
+    if (counts_.pivots == before + 1 && finish(island) == Ending::settled) return Ending::settled;
+    if (epsilon <= sharp_epsilon) continue;
+    epsilon *= reduction;
+    if (!soften(island, epsilon)) return Ending::indefinite;
+  }
+  return Ending::stuck;
+}
+
+mlcp_outcome Newton::solve(const Island& island) {
+  keep(island);
+  const auto go_back = [&] {
+    for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
+      basis_.set.state[o] = basis_.work.state[o];
+      if (basis_.set.state[o] != ActiveSet::active) basis_.rest(o, static_cast<ActiveSet::State>(basis_.set.state[o]));
+    }
+  };
+  proximal_.enter(island);
+  proximal_.center_here(island);
+  delta_ = 0;
+  Ending ending = island.crowded ? Ending::dependent : exact(island);
+  for (int attempt = 0; attempt < 2 && ending != Ending::settled && ending != Ending::stopped; ++attempt) {
+    go_back();
+    ending = attempt == 0 ? sharp(island, 4) : descent(island);
+  }
+  if (ending != Ending::settled) {
+    basis_.values.regularise(*basis_.pattern, island, 0, 0);
+    go_back();
+  }
+  switch (ending) {
+    case Ending::settled: return MLCP_SOLVED;
+    case Ending::stopped: return stopped_;
+    case Ending::indefinite: return MLCP_NOT_POSITIVE_DEFINITE;
+    default: return MLCP_ITERATION_LIMIT;
+  }
+}
+
+bool Newton::least_norm(const Island& island) {
+  // rows that hold share the load, whether they are active or not
+  for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
+    basis_.work.center[basis_.position(o)] = 0;
+    const std::uint8_t state = basis_.set.state[o];
+    if (state == ActiveSet::disabled || !(basis_.values.a[o] > 0)) continue;
+    if (std::abs(basis_.set.w[o]) <= basis_.set.tolerance[o]) basis_.set.state[o] = ActiveSet::active;
+  }
+  proximal_.enter(island);
+  if (!soften(island, sharp_epsilon)) return false;
+  return full_steps(island, 0) == Ending::settled && finish(island) == Ending::settled;
+}
+
+}  // namespace mlcp

@@ -1,0 +1,48 @@
+#pragma once
+#include "solve/proximal.h"
+
+namespace mlcp {
+
+/// Semismooth Newton on the complementarity conditions: every row is put where the last point says it belongs, many at a time, and the linear
+/// system is solved again (a primal-dual active set method; Hintermüller, Ito & Kunisch 2002). The changes go through row toggles of
+/// the factor, or through one factorization where that touches less.
+///
+/// Full steps alone are the whole method on most scenes: a handful from a fair guess. They need not converge, so
+///   exact      ε = 0, as long as the number of changes falls and no row depends on active ones;
+///   sharp      ε = 1e-8, the same with dependent rows;
+///   descent    ε from 1e-2 down, with an exact line search on the proximal problem: from anywhere. Lowered when the inner problem is solved.
+/// Each ends with ε = 0: iterative refinement against K itself, and a last look whether every row is where it belongs.
+class Newton {
+ public:
+  Newton(Basis& basis, Limits& limits, Counts& counts) : basis_(basis), limits_(limits), counts_(counts), proximal_(basis, counts) {}
+
+  /// before: states, and impulses where they are known (x of the rows).
+  /// SOLVED: the basis holds the answer. ITERATION_LIMIT: it gave up, and the active set is the best start that it knows.
+  mlcp_outcome solve(const Island& island);
+  /// Among the impulses that give this velocity, those with the least Σ aᵢγᵢ²: the proximal point around 0 as ε → 0. before: the basis holds an
+  /// answer. false: not found, and the basis holds nothing of use.
+  bool least_norm(const Island& island);
+  double epsilon() const { return proximal_.epsilon(); }  ///< of the factor that is left
+
+ private:
+  enum class Ending { settled, stuck, dependent, stopped, indefinite };
+  Ending exact(const Island& island);
+  Ending sharp(const Island& island, int rounds);
+  Ending descent(const Island& island);
+  Ending full_steps(const Island& island, double drop);
+  Ending minimise(const Island& island);
+  Ending finish(const Island& island);
+  bool empty_rows_hold(const Island& island) const;
+  void keep(const Island& island);
+  bool soften(const Island& island, double epsilon);
+
+  Basis& basis_;
+  Limits& limits_;
+  Counts& counts_;
+  Proximal proximal_;
+  double delta_ = 0;
+  std::span<const Flip> flips_;  // of the last finish
+  mlcp_outcome stopped_ = MLCP_SOLVED;
+};
+
+}  // namespace mlcp
