@@ -13,8 +13,7 @@ fn read(file: &str) -> String {
 #[test]
 fn every_struct_of_the_header_has_assertions_of_its_layout() {
     let (header, bindings) = (read("vendor/capi/mlcp.h"), read("src/bindings.rs"));
-    let structs: Vec<&str> =
-        header.lines().filter_map(|line| line.strip_prefix("typedef struct ")?.strip_suffix(" {")).collect();
+    let structs: Vec<&str> = header.lines().filter_map(|line| line.strip_prefix("typedef struct ")?.strip_suffix(" {")).collect();
     assert!(structs.contains(&"mlcp_report") && structs.len() >= 8, "{structs:?}");
     for name in structs {
         for what in ["Size of", "Alignment of"] {

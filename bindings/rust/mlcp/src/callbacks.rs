@@ -55,12 +55,10 @@ impl<'a> Callbacks<'a> {
         self.progress.is_none()
     }
 
-    /// Makes `settings` call these callbacks. They must not be used in any other way before the solve has ended.
+    /// Makes `settings` call these callbacks and no others. They must not be used in any other way before the solve has ended.
     pub(crate) fn install(&mut self, settings: &mut sys::mlcp_settings) {
-        if self.progress.is_some() {
-            settings.progress = Some(on_progress);
-            settings.progress_context = std::ptr::from_mut(self).cast();
-        }
+        settings.progress = self.progress.is_some().then_some(on_progress);
+        settings.progress_context = std::ptr::from_mut(self).cast();
     }
 
     /// Goes on with a panic that a callback began.

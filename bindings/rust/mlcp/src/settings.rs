@@ -1,6 +1,5 @@
 //! How to solve.
 use std::mem::MaybeUninit;
-use std::ptr::null_mut;
 use std::time::Duration;
 
 use crate::constants::constants;
@@ -147,8 +146,6 @@ impl Settings {
         raw.max_work = raw_limit(self.max_work);
         // 0 would be no limit
         raw.max_seconds = self.max_time.map_or(0.0, |time| time.as_secs_f64().max(f64::MIN_POSITIVE));
-        raw.progress = None;
-        raw.progress_context = null_mut();
         raw
     }
 }

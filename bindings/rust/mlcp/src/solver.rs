@@ -126,10 +126,7 @@ impl Solver {
 
     /// The settings.
     pub fn settings(&self) -> Settings {
-        let mut raw = crate::settings::default_raw();
-        // SAFETY: a live handle and a struct that says its size. The call cannot fail then.
-        let _ = unsafe { sys::mlcp_solver_get_settings(self.as_ptr(), &mut raw) };
-        Settings::from_raw(&raw)
+        Settings::from_raw(&self.raw_settings())
     }
 
     /// New settings; the analysis and the results stay.
@@ -240,12 +237,19 @@ impl Solver {
     /// Makes the library call these callbacks from now on, until others are installed. Costs nothing where there were none and are none.
     pub(crate) fn install(&mut self, callbacks: &mut Callbacks<'_>) -> Result<()> {
         if self.has_callbacks || !callbacks.is_empty() {
-            let mut raw = self.settings().raw();
+            let mut raw = self.raw_settings();
             callbacks.install(&mut raw);
             self.set_raw_settings(&raw)?;
             self.has_callbacks = !callbacks.is_empty();
         }
         Ok(())
+    }
+
+    fn raw_settings(&self) -> sys::mlcp_settings {
+        let mut raw = crate::settings::default_raw();
+        // SAFETY: a live handle and a struct that says its size. The call cannot fail then.
+        let _ = unsafe { sys::mlcp_solver_get_settings(self.as_ptr(), &mut raw) };
+        raw
     }
 
     fn set_raw_settings(&mut self, raw: &sys::mlcp_settings) -> Result<()> {

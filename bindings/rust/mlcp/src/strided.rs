@@ -75,7 +75,7 @@ impl<'a, T> From<&'a Vec<T>> for Strided<'a, T> {
 }
 
 /// Blocks of numbers, one a row or a body: packed one behind the other in a slice, where the world takes none, or in arrays of one size
-/// a fixed number of bytes apart, where the world's is not read.
+/// a fixed number of bytes apart (`Strided::from(&blocks)`, or [`strided!`](crate::strided)), where the world's is not read.
 #[derive(Debug)]
 pub struct Blocks<'a, T> {
     first: *const T,

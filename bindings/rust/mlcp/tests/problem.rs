@@ -107,7 +107,8 @@ fn rows_in_bulk_from_slices_and_from_structs_in_both_precisions() -> mlcp::Resul
     // in structs: blocks as wide as the largest body
     macro_rules! add_pairs {
         ($real:ty) => {{
-            let pair = |a, b, r| Pair::<$real> { a, b, jacobian_a: [1.0, 2.0, 3.0], jacobian_b: [4.0, 5.0, 6.0], r, hi: 9.0, key: 5 };
+            let pair =
+                |a, b, r| Pair::<$real> { a, b, jacobian_a: [1.0, 2.0, 3.0], jacobian_b: [4.0, 5.0, 6.0], r, hi: 9.0, key: 5 };
             let pairs = [pair(small, large, 0.25), pair(large, Body::WORLD, 0.5)];
             let rows = Rows::new(2)
                 .body_a(strided!(&pairs, Pair<$real>, a))
