@@ -50,7 +50,7 @@ pub(crate) struct Callbacks<'a> {
     panic: Option<Box<dyn Any + Send>>,
 }
 
-impl<'a> Callbacks<'a> {
+impl Callbacks<'_> {
     pub(crate) fn is_empty(&self) -> bool {
         self.progress.is_none()
     }

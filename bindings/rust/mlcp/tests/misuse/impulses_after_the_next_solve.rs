@@ -1,11 +1,8 @@
-use mlcp::{Problem, Solver};
-
-fn main() -> mlcp::Result<()> {
-    let problem = Problem::new()?;
-    let mut solver = Solver::new()?;
-    let _ = solver.solve(&problem)?;
+fn misuse(problem: &mlcp::Problem, solver: &mut mlcp::Solver) -> mlcp::Result<()> {
     let impulses = solver.impulses()?;
-    let _ = solver.solve(&problem)?;
-    println!("{impulses:?}");
+    let _ = solver.solve(problem)?;
+    println!("{}", impulses.len());
     Ok(())
 }
+
+fn main() {}

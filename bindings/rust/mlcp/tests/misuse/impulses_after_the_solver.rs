@@ -1,11 +1,9 @@
-use mlcp::{Problem, Solver};
-
-fn main() -> mlcp::Result<()> {
-    let problem = Problem::new()?;
-    let mut solver = Solver::new()?;
-    let _ = solver.solve(&problem)?;
+fn misuse(problem: &mlcp::Problem, mut solver: mlcp::Solver) -> mlcp::Result<()> {
+    let _ = solver.solve(problem)?;
     let impulses = solver.impulses()?;
     drop(solver);
-    println!("{impulses:?}");
+    println!("{}", impulses.len());
     Ok(())
 }
+
+fn main() {}

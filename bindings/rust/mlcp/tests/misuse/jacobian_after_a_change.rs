@@ -1,9 +1,8 @@
-use mlcp::Problem;
-
-fn main() -> mlcp::Result<()> {
-    let mut problem = Problem::new()?;
+fn misuse(problem: &mut mlcp::Problem) -> mlcp::Result<()> {
     let jacobian = problem.jacobian()?;
     problem.clear_rows()?;
     println!("{}", jacobian.rows);
     Ok(())
 }
+
+fn main() {}

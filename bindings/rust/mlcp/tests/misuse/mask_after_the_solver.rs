@@ -1,13 +1,9 @@
-use mlcp::{MaskRef, Problem, Solver};
-
-fn main() -> mlcp::Result<()> {
-    let problem = Problem::new()?;
-    let start: &MaskRef;
-    {
-        let mut solver = Solver::new()?;
-        let _ = solver.solve(&problem)?;
-        start = solver.mask()?;
-    }
-    println!("{}", start.len());
+fn misuse(problem: &mlcp::Problem, mut solver: mlcp::Solver) -> mlcp::Result<()> {
+    let _ = solver.solve(problem)?;
+    let mask = solver.mask()?;
+    drop(solver);
+    println!("{}", mask.len());
     Ok(())
 }
+
+fn main() {}

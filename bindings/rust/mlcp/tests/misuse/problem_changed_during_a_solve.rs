@@ -1,14 +1,9 @@
-use std::ops::ControlFlow;
-
-use mlcp::{Problem, Solver};
-
-fn main() -> mlcp::Result<()> {
-    let mut problem = Problem::new()?;
-    let mut solver = Solver::new()?;
-    let mut progress = |_: &mlcp::Progress| {
+fn misuse(problem: &mut mlcp::Problem, solver: &mut mlcp::Solver) -> mlcp::Result<mlcp::Report> {
+    let mut change = |_: &mlcp::Progress| {
         let _ = problem.clear();
-        ControlFlow::Continue(())
+        std::ops::ControlFlow::Continue(())
     };
-    let _ = solver.request(&problem).progress(&mut progress).run()?;
-    Ok(())
+    solver.request(problem).progress(&mut change).run()
 }
+
+fn main() {}

@@ -1,12 +1,9 @@
-use mlcp::{Problem, Rows};
-
-fn main() -> mlcp::Result<()> {
-    let mut problem = Problem::new()?;
-    let mut rows = Rows::<f64>::new(1);
-    {
-        let r = vec![1.0];
-        rows = rows.r(&r);
-    }
+fn misuse(problem: &mut mlcp::Problem) -> mlcp::Result<()> {
+    let r = vec![1.0];
+    let rows = mlcp::Rows::new(1).r(&r);
+    drop(r);
     problem.add_rows(&rows)?;
     Ok(())
 }
+
+fn main() {}

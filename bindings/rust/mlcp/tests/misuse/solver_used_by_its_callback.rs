@@ -1,14 +1,9 @@
-use std::ops::ControlFlow;
-
-use mlcp::{Problem, Solver};
-
-fn main() -> mlcp::Result<()> {
-    let problem = Problem::new()?;
-    let mut solver = Solver::new()?;
-    let mut progress = |_: &mlcp::Progress| {
+fn misuse(problem: &mlcp::Problem, solver: &mut mlcp::Solver) -> mlcp::Result<mlcp::Report> {
+    let mut trim = |_: &mlcp::Progress| {
         let _ = solver.trim();
-        ControlFlow::Continue(())
+        std::ops::ControlFlow::Continue(())
     };
-    let _ = solver.request(&problem).progress(&mut progress).run()?;
-    Ok(())
+    solver.request(problem).progress(&mut trim).run()
 }
+
+fn main() {}
