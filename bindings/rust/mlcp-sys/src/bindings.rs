@@ -261,12 +261,28 @@ pub struct mlcp_solver {
 pub type mlcp_method = i32;
 pub const MLCP_METHOD_AUTO: mlcp_method = 0;
 pub const MLCP_METHOD_SIMPLEX: mlcp_method = 1;
+pub const MLCP_METHOD_NEWTON: mlcp_method = 2;
+pub const MLCP_METHOD_PGS: mlcp_method = 3;
 pub type mlcp_pivot_rule = i32;
 pub const MLCP_PIVOT_DUAL: mlcp_pivot_rule = 0;
 pub const MLCP_PIVOT_PRINTED: mlcp_pivot_rule = 1;
 pub type mlcp_refactorize = i32;
 pub const MLCP_REFACTORIZE_WHEN_NEEDED: mlcp_refactorize = 0;
 pub const MLCP_REFACTORIZE_ALWAYS: mlcp_refactorize = 1;
+pub type mlcp_impulses = i32;
+pub const MLCP_IMPULSES_ANY: mlcp_impulses = 0;
+pub const MLCP_IMPULSES_LEAST_NORM: mlcp_impulses = 1;
+pub type mlcp_task = ::core::option::Option<
+    unsafe extern "C" fn(data: *mut ::core::ffi::c_void, index: i32, worker: i32),
+>;
+pub type mlcp_parallel_for = ::core::option::Option<
+    unsafe extern "C" fn(
+        context: *mut ::core::ffi::c_void,
+        count: i32,
+        task: mlcp_task,
+        data: *mut ::core::ffi::c_void,
+    ),
+>;
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
 pub struct mlcp_progress {
@@ -324,10 +340,16 @@ pub struct mlcp_settings {
     pub max_seconds: f64,
     pub progress: mlcp_progress_callback,
     pub progress_context: *mut ::core::ffi::c_void,
+    pub impulses: mlcp_impulses,
+    pub canonical: i32,
+    pub warm_start: i32,
+    pub num_threads: i32,
+    pub parallel_for: mlcp_parallel_for,
+    pub parallel_context: *mut ::core::ffi::c_void,
 }
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 const _: () = {
-    ["Size of mlcp_settings"][::core::mem::size_of::<mlcp_settings>() - 72usize];
+    ["Size of mlcp_settings"][::core::mem::size_of::<mlcp_settings>() - 104usize];
     ["Alignment of mlcp_settings"][::core::mem::align_of::<mlcp_settings>() - 8usize];
     [
         "Offset of field: mlcp_settings::struct_size",
@@ -362,6 +384,24 @@ const _: () = {
     [
         "Offset of field: mlcp_settings::progress_context",
     ][::core::mem::offset_of!(mlcp_settings, progress_context) - 64usize];
+    [
+        "Offset of field: mlcp_settings::impulses",
+    ][::core::mem::offset_of!(mlcp_settings, impulses) - 72usize];
+    [
+        "Offset of field: mlcp_settings::canonical",
+    ][::core::mem::offset_of!(mlcp_settings, canonical) - 76usize];
+    [
+        "Offset of field: mlcp_settings::warm_start",
+    ][::core::mem::offset_of!(mlcp_settings, warm_start) - 80usize];
+    [
+        "Offset of field: mlcp_settings::num_threads",
+    ][::core::mem::offset_of!(mlcp_settings, num_threads) - 84usize];
+    [
+        "Offset of field: mlcp_settings::parallel_for",
+    ][::core::mem::offset_of!(mlcp_settings, parallel_for) - 88usize];
+    [
+        "Offset of field: mlcp_settings::parallel_context",
+    ][::core::mem::offset_of!(mlcp_settings, parallel_context) - 96usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -395,10 +435,12 @@ pub struct mlcp_report {
     pub seconds_report: f64,
     pub analyzed: i32,
     pub refactorized_for_drift: i32,
+    pub warm: i32,
+    pub fallbacks: i32,
 }
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 const _: () = {
-    ["Size of mlcp_report"][::core::mem::size_of::<mlcp_report>() - 184usize];
+    ["Size of mlcp_report"][::core::mem::size_of::<mlcp_report>() - 192usize];
     ["Alignment of mlcp_report"][::core::mem::align_of::<mlcp_report>() - 8usize];
     [
         "Offset of field: mlcp_report::struct_size",
@@ -487,6 +529,12 @@ const _: () = {
     [
         "Offset of field: mlcp_report::refactorized_for_drift",
     ][::core::mem::offset_of!(mlcp_report, refactorized_for_drift) - 180usize];
+    [
+        "Offset of field: mlcp_report::warm",
+    ][::core::mem::offset_of!(mlcp_report, warm) - 184usize];
+    [
+        "Offset of field: mlcp_report::fallbacks",
+    ][::core::mem::offset_of!(mlcp_report, fallbacks) - 188usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -809,6 +857,18 @@ unsafe extern "C" {
     pub fn mlcp_mask_states(mask: *const mlcp_mask) -> *const mlcp_row_state;
     pub fn mlcp_mask_count(mask: *const mlcp_mask, state: mlcp_row_state) -> i32;
     pub fn mlcp_mask_equal(a: *const mlcp_mask, b: *const mlcp_mask) -> i32;
+    pub fn mlcp_mask_set_impulses(
+        mask: *mut mlcp_mask,
+        first: i32,
+        count: i32,
+        impulses: *const f64,
+    ) -> mlcp_status;
+    pub fn mlcp_mask_get_impulses(
+        mask: *const mlcp_mask,
+        first: i32,
+        count: i32,
+        impulses: *mut f64,
+    ) -> mlcp_status;
     pub fn mlcp_mask_take_keys(
         mask: *mut mlcp_mask,
         problem: *const mlcp_problem,

@@ -42,13 +42,13 @@ fn initialised<T>(init: unsafe extern "C" fn(*mut T, usize)) -> T {
 fn the_library_fills_structs_from_the_first_field_to_the_last() {
     let settings = initialised(mlcp_settings_init);
     assert_eq!((settings.struct_size, settings.method, settings.tolerance), (size_of_val(&settings), MLCP_METHOD_AUTO, 1e-9));
-    assert!(settings.progress.is_none() && settings.progress_context.is_null());
+    assert!(settings.progress.is_none() && settings.parallel_context.is_null());
     let rows = initialised(mlcp_rows_init);
     assert!(rows.struct_size == size_of_val(&rows) && rows.count == 0 && rows.body_a.is_null() && rows.key_stride == 0);
     let rows = initialised(mlcp_rows_f32_init);
     assert!(rows.struct_size == size_of_val(&rows) && rows.count == 0 && rows.body_a.is_null() && rows.key_stride == 0);
     let report = initialised(mlcp_report_init);
-    assert_eq!((report.struct_size, report.outcome, report.refactorized_for_drift), (size_of_val(&report), MLCP_SOLVED, 0));
+    assert_eq!((report.struct_size, report.outcome, report.fallbacks), (size_of_val(&report), MLCP_SOLVED, 0));
     let view = initialised(mlcp_matrix_view_init);
     assert!(view.struct_size == size_of_val(&view) && view.rows == 0 && view.values.is_null());
 }

@@ -33,7 +33,7 @@ pub use problem::Problem;
 pub use report::{Outcome, Report, Times};
 pub use request::Request;
 pub use rows::{Real, Row, RowFields, RowFieldsMut, Rows};
-pub use settings::{Method, PivotRule, Refactorize, Settings};
+pub use settings::{Impulses, Method, PivotRule, Refactorize, Settings};
 pub use snapshot::{Recording, Snapshot};
 pub use solver::{Certificate, Solver};
 pub use strided::{Blocks, Strided, StridedMut};

@@ -43,8 +43,8 @@ impl fmt::Debug for RowState {
     }
 }
 
-/// A mask that somebody lends, usually a [`Solver`](crate::Solver): one state a row, and the keys of the rows it was made for. It is to
-/// [`Mask`] what `str` is to `String`.
+/// A mask that somebody lends, usually a [`Solver`](crate::Solver): one state a row, and the keys of the rows it was made for and
+/// impulses where it has them. It is to [`Mask`] what `str` is to `String`.
 pub struct MaskRef {
     // only ever behind a pointer to what the library owns
     _opaque: PhantomData<UnsafeCell<sys::mlcp_mask>>,
@@ -88,7 +88,14 @@ impl MaskRef {
         count(unsafe { sys::mlcp_mask_count(self.as_ptr(), state.0) })
     }
 
-    /// A deep copy, keys included.
+    /// Copies the impulses, N·s, from row `first` on. A mask that a solve returns has them; [`Error::State`] where there are none.
+    pub fn read_impulses(&self, first: usize, impulses: &mut [f64]) -> Result<()> {
+        let (first, rows) = (int("first", first)?, int("the length of impulses", impulses.len())?);
+        // SAFETY: a live mask and room for that many numbers.
+        check(unsafe { sys::mlcp_mask_get_impulses(self.as_ptr(), first, rows, impulses.as_mut_ptr()) })
+    }
+
+    /// A deep copy, keys and impulses included.
     pub fn try_clone(&self) -> Result<Mask> {
         let mut raw = null_mut();
         // SAFETY: a live mask and a place for the new one; the library copies the hooks.
@@ -98,7 +105,7 @@ impl MaskRef {
     }
 }
 
-/// The same states in the same order; keys do not matter.
+/// The same states in the same order; keys and impulses do not matter.
 impl PartialEq for MaskRef {
     fn eq(&self, other: &Self) -> bool {
         // SAFETY: live masks.
@@ -202,14 +209,21 @@ impl Mask {
         self.edit(|raw| unsafe { sys::mlcp_mask_set(raw, first, rows, states.as_ptr().cast()) })
     }
 
+    /// The impulses, N·s, that go with the states from row `first` on: where an iterative method starts. Other rows get 0 if the mask had none.
+    pub fn set_impulses(&mut self, first: usize, impulses: &[f64]) -> Result<()> {
+        let (first, rows) = (int("first", first)?, int("the length of impulses", impulses.len())?);
+        // SAFETY: that many numbers.
+        self.edit(|raw| unsafe { sys::mlcp_mask_set_impulses(raw, first, rows, impulses.as_ptr()) })
+    }
+
     /// Takes the keys of the problem's rows; the sizes must match.
     pub fn take_keys(&mut self, problem: &Problem) -> Result<()> {
         // SAFETY: live handles.
         self.edit(|raw| unsafe { sys::mlcp_mask_take_keys(raw, problem.as_ptr()) })
     }
 
-    /// Becomes the mask of `problem`: each row has the state that the row with its key had in `previous`, or `otherwise` when the key is
-    /// new or none. Equal keys match in order of adding. Expected O(m).
+    /// Becomes the mask of `problem`: each row has the state and the impulse that the row with its key had in `previous`, or `otherwise` and
+    /// 0 when the key is new or none. Equal keys match in order of adding. Expected O(m).
     pub fn carry(&mut self, problem: &Problem, previous: &MaskRef, otherwise: RowState) -> Result<()> {
         // SAFETY: live handles; `previous` is another mask, because this one is borrowed mutably.
         self.edit(|raw| unsafe { sys::mlcp_mask_carry(raw, problem.as_ptr(), previous.as_ptr(), otherwise.0) })

@@ -34,7 +34,7 @@ constants! {
 pub struct Report {
     /// The worst over the islands.
     pub outcome: Outcome,
-    /// The method that ran.
+    /// The method that ran; [`Method::Auto`]: several did.
     pub method: Method,
     /// Componentwise backward error of the momentum equation, over dynamic velocities. What is not finite is an error of ∞, here and below.
     pub momentum_error: f64,
@@ -62,7 +62,7 @@ pub struct Report {
     pub active_rows: usize,
     /// Rows that depend on active ones.
     pub redundant_rows: usize,
-    /// Steps of the simplex method.
+    /// Steps of the simplex method, Newton steps, sweeps of Gauss-Seidel.
     pub pivots: i64,
     /// Rows taken into or out of the factor along the elimination tree.
     pub toggles: i64,
@@ -80,6 +80,10 @@ pub struct Report {
     pub analyzed: bool,
     /// How often the factor was made afresh because it had drifted.
     pub refactorized_for_drift: usize,
+    /// Whether the solve started from a mask, given or found by keys.
+    pub warm: bool,
+    /// Islands that a method gave up and another one solved.
+    pub fallbacks: usize,
 }
 
 /// Wall-clock times of a solve.
@@ -136,6 +140,8 @@ impl Report {
             },
             analyzed: raw.analyzed != 0,
             refactorized_for_drift: count(raw.refactorized_for_drift),
+            warm: raw.warm != 0,
+            fallbacks: count(raw.fallbacks),
         }
     }
 }

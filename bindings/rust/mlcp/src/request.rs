@@ -22,14 +22,14 @@ pub struct Request<'a> {
 }
 
 enum Start<'a> {
-    Bilateral,
+    Default,
     From(&'a MaskRef),
     Last,
 }
 
 impl<'a> Request<'a> {
     pub(crate) fn new(solver: &'a mut Solver, problem: &'a Problem) -> Self {
-        Request { solver, problem, enabled: None, start: Start::Bilateral, callbacks: Callbacks::default() }
+        Request { solver, problem, enabled: None, start: Start::Default, callbacks: Callbacks::default() }
     }
 
     /// Leaves the rows out that are [`DISABLED`](crate::RowState::DISABLED) in this mask. Without it all rows count.
@@ -37,13 +37,14 @@ impl<'a> Request<'a> {
         Request { enabled: Some(mask), ..self }
     }
 
-    /// The active set to start from, as the mask of the last step carried over; any will do. Without it: bilateral rows only.
+    /// The active set to start from, as the mask of the last step carried over; any will do. Without it: what
+    /// [`Settings::warm_start`](crate::Settings::warm_start) finds by the keys of the rows, else bilateral rows only.
     pub fn start(self, mask: &'a MaskRef) -> Self {
         Request { start: Start::From(mask), ..self }
     }
 
-    /// Starts from the mask with which the solver's last solve ended; the rows must still be as many. The first solve starts from
-    /// bilateral rows.
+    /// Starts from the mask with which the solver's last solve ended, whatever the keys; the rows must still be as many. The first solve
+    /// starts as without it.
     pub fn start_from_last(self) -> Self {
         Request { start: Start::Last, ..self }
     }
@@ -68,7 +69,31 @@ impl<'a> Request<'a> {
     /// # Ok(()) }
     /// ```
     pub fn progress(mut self, call: &'a mut dyn FnMut(&Progress) -> ControlFlow<()>) -> Self {
-        self.callbacks.progress = Some(call);
+        self.callbacks.progress.call = Some(call);
+        self
+    }
+
+    /// Solves islands on threads of the caller instead of the library's. `run` gets the work as a function and calls it on as many threads as
+    /// there are, at the same time, or on fewer: each call takes islands until none is left. What is left when `run` returns is done
+    /// on this thread. The answer does not depend on any of that. A panic in `run` goes on after the solve.
+    ///
+    /// ```
+    /// # fn main() -> mlcp::Result<()> {
+    /// # let (problem, mut solver) = (mlcp::Problem::new()?, mlcp::Solver::new()?);
+    /// let report = solver
+    ///     .request(&problem)
+    ///     .parallel(&mut |work| {
+    ///         std::thread::scope(|scope| {
+    ///             scope.spawn(work);
+    ///             work();
+    ///         })
+    ///     })
+    ///     .run()?;
+    /// assert!(report.is_solved());
+    /// # Ok(()) }
+    /// ```
+    pub fn parallel(mut self, run: &'a mut dyn FnMut(&(dyn Fn() + Sync))) -> Self {
+        self.callbacks.parallel.run = Some(run);
         self
     }
 
@@ -77,7 +102,7 @@ impl<'a> Request<'a> {
         let Request { solver, problem, enabled, start, mut callbacks } = self;
         let enabled = enabled.map_or(null(), MaskRef::as_ptr);
         let start = match start {
-            Start::Bilateral => null(),
+            Start::Default => null(),
             Start::From(mask) => mask.as_ptr(),
             Start::Last => solver.last_mask(),
         };

@@ -3,14 +3,19 @@ use std::mem::MaybeUninit;
 use std::time::Duration;
 
 use crate::constants::constants;
+use crate::numbers::count;
 
 constants! {
     /// A way to solve.
     Method, sys::mlcp_method {
-        /// The library chooses.
+        /// The library chooses, island by island.
         Auto = MLCP_METHOD_AUTO,
-        /// The simplex method of the paper: exact, finite.
+        /// The simplex method of the paper: exact, finite, one row at a time.
         Simplex = MLCP_METHOD_SIMPLEX,
+        /// Many rows at a time: exact, and falls back on the simplex method. Takes a semidefinite M where the solution is finite.
+        Newton = MLCP_METHOD_NEWTON,
+        /// Projected Gauss-Seidel, for a low accuracy: set a tolerance that it can reach.
+        Pgs = MLCP_METHOD_PGS,
     }
 }
 
@@ -31,6 +36,16 @@ constants! {
         WhenNeeded = MLCP_REFACTORIZE_WHEN_NEEDED,
         /// At every pivot, to compare.
         Always = MLCP_REFACTORIZE_ALWAYS,
+    }
+}
+
+constants! {
+    /// Which impulses, where dependent rows leave a choice; v is the same for all.
+    Impulses, sys::mlcp_impulses {
+        /// Those that the method ends with.
+        Any = MLCP_IMPULSES_ANY,
+        /// The least Σ aᵢγᵢ²: table legs carry equal loads. A second solve on such islands.
+        LeastNorm = MLCP_IMPULSES_LEAST_NORM,
     }
 }
 
@@ -61,12 +76,21 @@ pub struct Settings {
     pub trace: bool,
     /// On the largest relative error of the report, > 0; 1e-9.
     pub tolerance: f64,
-    /// Pivots an island; `None`: 50 (rows + 10).
+    /// Pivots, Newton steps or sweeps, an island; `None`: 50 (rows + 10).
     pub max_iterations: Option<u64>,
-    /// Entries touched, the same number everywhere, unlike seconds; `None`: no limit.
+    /// Entries touched, an island; the same number everywhere, unlike seconds; `None`: no limit.
     pub max_work: Option<u64>,
     /// Wall clock; `None`: no limit.
     pub max_time: Option<Duration>,
+    /// Which impulses, where there is a choice; [`Impulses::Any`].
+    pub impulses: Impulses,
+    /// Whether the answer is computed anew from its active set, so that warm and cold starts and all exact methods give the same bits where
+    /// active rows are independent and none is at zero by accident. Costs an analysis and a factorization; no.
+    pub canonical: bool,
+    /// Whether without a start mask rows with keys start where the last solve left rows with the same key; yes.
+    pub warm_start: bool,
+    /// Threads that solve islands, the caller's among them; 0: one a CPU; 1. The bits do not depend on it.
+    pub num_threads: usize,
 }
 
 impl Default for Settings {
@@ -106,12 +130,12 @@ impl Settings {
         Settings { tolerance, ..self }
     }
 
-    /// Limits the pivots an island.
+    /// Limits the pivots, Newton steps or sweeps, an island.
     pub fn max_iterations(self, max_iterations: impl Into<Option<u64>>) -> Self {
         Settings { max_iterations: max_iterations.into(), ..self }
     }
 
-    /// Limits the entries touched.
+    /// Limits the entries touched, an island.
     pub fn max_work(self, max_work: impl Into<Option<u64>>) -> Self {
         Settings { max_work: max_work.into(), ..self }
     }
@@ -119,6 +143,26 @@ impl Settings {
     /// Limits the wall clock.
     pub fn max_time(self, max_time: impl Into<Option<Duration>>) -> Self {
         Settings { max_time: max_time.into(), ..self }
+    }
+
+    /// Sets which impulses, where there is a choice.
+    pub fn impulses(self, impulses: Impulses) -> Self {
+        Settings { impulses, ..self }
+    }
+
+    /// Sets whether the answer is computed anew from its active set.
+    pub fn canonical(self, canonical: bool) -> Self {
+        Settings { canonical, ..self }
+    }
+
+    /// Sets whether rows start by their keys.
+    pub fn warm_start(self, warm_start: bool) -> Self {
+        Settings { warm_start, ..self }
+    }
+
+    /// Sets how many threads solve islands; 0: one a CPU.
+    pub fn num_threads(self, num_threads: usize) -> Self {
+        Settings { num_threads, ..self }
     }
 
     pub(crate) fn from_raw(raw: &sys::mlcp_settings) -> Self {
@@ -131,6 +175,10 @@ impl Settings {
             max_iterations: limit(raw.max_iterations),
             max_work: limit(raw.max_work),
             max_time: Duration::try_from_secs_f64(raw.max_seconds).ok().filter(|time| !time.is_zero()),
+            impulses: Impulses::from_raw(raw.impulses),
+            canonical: raw.canonical != 0,
+            warm_start: raw.warm_start != 0,
+            num_threads: count(raw.num_threads),
         }
     }
 
@@ -146,6 +194,10 @@ impl Settings {
         raw.max_work = raw_limit(self.max_work);
         // 0 would be no limit
         raw.max_seconds = self.max_time.map_or(0.0, |time| time.as_secs_f64().max(f64::MIN_POSITIVE));
+        raw.impulses = self.impulses.raw();
+        raw.canonical = i32::from(self.canonical);
+        raw.warm_start = i32::from(self.warm_start);
+        raw.num_threads = i32::try_from(self.num_threads).unwrap_or(i32::MAX); // refused by the library
         raw
     }
 }

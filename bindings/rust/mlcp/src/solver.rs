@@ -38,7 +38,7 @@ use crate::strided::StridedMut;
 /// # Ok(()) }
 /// ```
 ///
-/// A step that follows starts from the last one, with rows matched by key:
+/// A step that follows starts from the last one: rows with keys do by themselves ([`Settings::warm_start`]), or a mask carries the states over.
 ///
 /// ```
 /// # fn main() -> mlcp::Result<()> {
@@ -51,6 +51,7 @@ use crate::strided::StridedMut;
 /// let mut start = Mask::new(0, RowState::AT_LOWER)?;
 /// problem.clear_rows()?;
 /// problem.add_row(&Row::unilateral(&[0], &[1.0]).key(7))?;
+/// assert!(solver.solve(&problem)?.warm);
 /// start.carry(&problem, solver.mask()?, RowState::AT_LOWER)?;
 /// let report = solver.request(&problem).start(&start).run()?;
 /// assert_eq!(report.pivots, 0);

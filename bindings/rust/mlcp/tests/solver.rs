@@ -2,7 +2,9 @@
 use std::thread;
 use std::time::Duration;
 
-use mlcp::{Error, Mask, Method, Outcome, PivotRule, Problem, Refactorize, Row, RowState, Rows, Settings, Solver, strided_mut};
+use mlcp::{
+    Error, Impulses, Mask, Method, Outcome, PivotRule, Problem, Refactorize, Row, RowState, Rows, Settings, Solver, strided_mut,
+};
 
 /// A block of 2 kg on two corners; keys 1 and 2.
 fn block_on_table() -> mlcp::Result<Problem> {
@@ -123,7 +125,7 @@ fn an_infeasible_island_has_a_certificate_and_spoils_no_other() -> mlcp::Result<
 
 #[test]
 fn the_trace_tells_every_pivot() -> mlcp::Result<()> {
-    let (problem, mut solver) = (block_on_table()?, Solver::with_settings(&Settings::new().trace(true))?);
+    let (problem, mut solver) = (block_on_table()?, Solver::with_settings(&Settings::new().method(Method::Simplex).trace(true))?);
     let report = solver.solve(&problem)?;
     let trace = solver.trace()?;
     assert!(!trace.is_empty() && trace.len() as i64 == report.pivots);
@@ -182,7 +184,11 @@ fn settings_come_back_as_they_were_set() -> mlcp::Result<()> {
         .tolerance(1e-10)
         .max_iterations(100)
         .max_work(1_000_000)
-        .max_time(Duration::from_millis(1500));
+        .max_time(Duration::from_millis(1500))
+        .impulses(Impulses::LeastNorm)
+        .canonical(true)
+        .warm_start(false)
+        .num_threads(2);
     let mut solver = Solver::new()?;
     assert_eq!(solver.settings(), Settings::default());
     solver.set_settings(&settings)?;
@@ -198,6 +204,61 @@ fn settings_come_back_as_they_were_set() -> mlcp::Result<()> {
     assert_eq!(solver.settings(), settings, "a call that fails changes nothing");
     solver.trim()?;
     assert_eq!(solver.impulses()?.len(), 2);
+    Ok(())
+}
+
+#[test]
+fn every_method_solves() -> mlcp::Result<()> {
+    let problem = block_on_table()?;
+    for method in [Method::Auto, Method::Simplex, Method::Newton, Method::Pgs] {
+        let mut solver = Solver::with_settings(&Settings::new().method(method))?;
+        let report = solver.solve(&problem)?;
+        assert_eq!(report.outcome, Outcome::Solved, "{method:?}");
+        assert!(method == Method::Auto || report.method == method || report.fallbacks > 0, "{report:?}");
+        assert!((solver.impulses()?[0] - 0.1).abs() < 1e-9, "{method:?}");
+    }
+    Ok(())
+}
+
+#[test]
+fn equal_loads_where_there_is_a_choice() -> mlcp::Result<()> {
+    // three rows for one velocity
+    let mut problem = Problem::new()?;
+    problem.add_body(1, &[1.0])?;
+    problem.set_momentum(0, &[-0.9])?;
+    for _ in 0..3 {
+        problem.add_row(&Row::unilateral(&[0], &[1.0]))?;
+    }
+    let mut solver = Solver::with_settings(&Settings::new().impulses(Impulses::LeastNorm))?;
+    assert!(solver.solve(&problem)?.is_solved());
+    assert!(solver.impulses()?.iter().all(|gamma| (gamma - 0.3).abs() < 1e-12), "{:?}", solver.impulses()?);
+    Ok(())
+}
+
+#[test]
+fn rows_start_by_their_keys_unless_told_not_to() -> mlcp::Result<()> {
+    let (problem, mut solver) = (block_on_table()?, Solver::new()?);
+    assert!(!solver.solve(&problem)?.warm);
+    assert!(solver.solve(&problem)?.warm);
+    solver.set_settings(&Settings::new().warm_start(false))?;
+    assert!(!solver.solve(&problem)?.warm);
+    Ok(())
+}
+
+#[test]
+fn masks_carry_impulses_too() -> mlcp::Result<()> {
+    let (problem, mut solver) = (block_on_table()?, Solver::new()?);
+    let _ = solver.solve(&problem)?;
+    let mut start = Mask::new(2, RowState::ACTIVE)?;
+    let mut gamma = [0.0; 2];
+    assert!(matches!(start.read_impulses(0, &mut gamma), Err(Error::State(_))));
+    start.carry(&problem, solver.mask()?, RowState::AT_LOWER)?;
+    start.read_impulses(0, &mut gamma)?;
+    assert_eq!(gamma, solver.impulses()?);
+    start.set_impulses(1, &[7.0])?;
+    start.read_impulses(1, &mut gamma[..1])?;
+    assert_eq!(gamma[0], 7.0);
+    assert!(matches!(start.set_impulses(1, &gamma), Err(Error::Range(_))));
     Ok(())
 }
 
