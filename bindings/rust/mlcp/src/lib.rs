@@ -1,0 +1,39 @@
+#![doc = include_str!("../README.md")]
+#![deny(missing_docs, missing_debug_implementations)]
+#![deny(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod body;
+mod callbacks;
+mod constants;
+mod error;
+mod library;
+mod mask;
+mod matrix;
+mod memory;
+mod numbers;
+mod pivot;
+mod problem;
+mod report;
+mod request;
+mod rows;
+mod settings;
+mod snapshot;
+mod solver;
+mod strided;
+pub mod timestep;
+
+pub use body::Body;
+pub use callbacks::Progress;
+pub use error::{Error, Result};
+pub use library::version;
+pub use mask::{Mask, MaskRef, RowState};
+pub use matrix::{Compressed, MatrixView, Triangle};
+pub use pivot::Pivot;
+pub use problem::Problem;
+pub use report::{Outcome, Report, Times};
+pub use request::Request;
+pub use rows::{Real, Row, RowFields, RowFieldsMut, Rows};
+pub use settings::{Impulses, Method, PivotRule, Refactorize, Settings};
+pub use snapshot::{Recording, Snapshot};
+pub use solver::{Certificate, Solver};
+pub use strided::{Blocks, Strided, StridedMut};
