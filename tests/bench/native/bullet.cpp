@@ -1,6 +1,7 @@
 // Bullet's copy of the same solver, as it is distributed: single precision.
 #include <BulletDynamics/MLCPSolvers/btDantzigLCP.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "clock.h"
@@ -8,13 +9,11 @@
 
 std::int32_t bench_dense_solve(std::int32_t m, std::int32_t bilateral, const double* A, const double* b, const double* lo,
                                const double* hi, double* gamma, double* seconds) {
-  const std::size_t skip = (static_cast<std::size_t>(m) + 3) & ~std::size_t{3}, rows = static_cast<std::size_t>(m);
-  std::vector<btScalar> matrix(rows * skip), right(rows), low(lo, lo + m), high(hi, hi + m), w(rows), x(rows);
+  const std::size_t rows = static_cast<std::size_t>(m);
+  // unlike ODE's its rows are not padded
+  std::vector<btScalar> matrix(A, A + rows * rows), right(rows), low(lo, lo + m), high(hi, hi + m), w(rows), x(rows);
   std::vector<int> findex(rows, -1);
-  for (std::size_t i = 0; i < rows; ++i) {
-    std::copy(A + i * rows, A + (i + 1) * rows, matrix.data() + i * skip);
-    right[i] = static_cast<btScalar>(-b[i]);
-  }
+  std::transform(b, b + m, right.begin(), [](double value) { return static_cast<btScalar>(-value); });
   btDantzigScratchMemory scratch;
   const double start = bench::wall_seconds();
   const bool good = btSolveDantzigLCP(m, matrix.data(), x.data(), right.data(), w.data(), bilateral, low.data(), high.data(), findex.data(), scratch);
