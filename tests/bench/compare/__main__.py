@@ -22,7 +22,6 @@ def arguments():
     parser.add_argument("--quick", action="store_true", help="small problems and few repeats: about 2 minutes, for work on the benchmark")
     parser.add_argument("--figures", action="store_true", help="only what the table of figures needs, and that table")
     parser.add_argument("--problems", type=Path, metavar="FOLDER", help="real problems [$MLCP_PROBLEMS, ../shared/problems where it is]")
-    parser.add_argument("--mujoco", type=Path, metavar="FOLDER", help="source tree of MuJoCo, for its models that no package ships")
     parser.add_argument("--only", metavar="REGEX", help="only problems whose name matches; no table of figures")
     parser.add_argument("--peers", metavar="REGEX", default="", help="only peers whose name matches")
     parser.add_argument("--limit", type=float, metavar="S", help="of one solve of one peer [60, quick 3]")
@@ -92,7 +91,7 @@ def main():
     report = [head(library, peers, missing), "## Problems\n", tables.summary(rows), "## Solvers\n", tables.solvers(rows),
               "## Wrong answers that claim success\n", tables.wrong(rows)]
     if not options.only:
-        every = [*figures.from_rows(rows), *figures.measured_alone(library, native, folder, options.mujoco, options.quick)]
+        every = [*figures.from_rows(rows), *figures.measured_alone(library, native, folder, options.quick)]
         report += ["## Figures\n", figures.markdown(every)]
     text = "\n".join(report)
     (options.output / "report.md").write_text(text)

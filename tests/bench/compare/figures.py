@@ -3,7 +3,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import families, library as lib, soft, tables
+from . import families, library as lib, soft, soft_models, tables
 from .problem import Problem
 
 ROBOT, ROBOTS, SPHERES = "humanoid_fall", "humanoids22", "spheres_356"
@@ -108,11 +108,11 @@ def _geometric_means(groups):
                      f"on {alone} more no peer reaches 1e-9" if alone else "")
 
 
-def measured_alone(library, native, problems, mujoco, quick):
+def measured_alone(library, native, problems, quick):
     """The figures that need no peer. native: a build for this CPU, or None; problems: folder of real ones, or None."""
     turns = 5 if quick else 31
     yield from _sequences(library, problems, quick)
-    yield from _soft(library, mujoco, turns)
+    yield from _soft(library, turns)
     yield from _growth(library, quick)
     robots = _robots(library, problems)
     yield _threads(library, robots, turns)
@@ -162,15 +162,13 @@ def _warm_against_oracle(library, handles):
                   f"{tables.duration(float(np.median(oracle)))} without analysis, warm ÷ cold {ratio:.2g}, largest error {worst:.0e}")
 
 
-def _soft(library, mujoco, turns):
+def _soft(library, turns):
     title = "MuJoCo's Newton, soft and with friction, ÷ our exact frictionless solve: {}"
-    if not soft.installed():
-        yield Figure(title.format("all"), "≥ 0.5", "≥ 2", "left out: MuJoCo is not installed")
+    if why := soft.missing():
+        yield Figure(title.format("all models"), "≥ 0.5", "≥ 2", f"left out: {why}")
         return
-    for name, model, steps, why in soft.models(mujoco):
-        if model is None:
-            yield Figure(title.format(name), "≥ 0.5", "≥ 2", f"left out: {why}")
-            continue
+    for name, (make, steps) in soft_models.MODELS.items():
+        model = make()
         newton, rows, iterations = soft.newton_seconds(model, steps, 10 * turns)
         problem = soft.exact_problem(library, name, model, steps)
         run = lib.Run(library, problem.handle, problem.n, problem.m, DEFAULT, TOLERANCE)

@@ -1,55 +1,21 @@
 """MuJoCo's Newton on its own soft version of its models, with friction, against our exact frictionless solve of the same state."""
 import importlib.util
 import time
-from pathlib import Path
 
 import numpy as np
 import scipy.sparse as sp
 
+from . import soft_models
 from .problem import Problem
 
 STABILISATION = 0.2  # of overlaps, as in the recorded problems
-HUMANOIDS_IN_A_ROW = 5
 
 
-def installed():
-    return importlib.util.find_spec("mujoco") is not None
-
-
-def _shipped_humanoid():
-    """The model file that the package mujoco-mjx ships."""
-    spec = importlib.util.find_spec("mujoco")
-    path = spec and Path(spec.origin).parent / "mjx" / "test_data" / "humanoid" / "humanoid.xml"
-    return path if path and path.exists() else None
-
-
-def _crowd(mujoco, path, count):
-    """`count` humanoids of one file on one floor, apart from each other."""
-    crowd = mujoco.MjSpec.from_file(str(path))
-    first = crowd.body("torso").pos
-    for i in range(1, count):
-        other = mujoco.MjSpec.from_file(str(path))
-        place = crowd.worldbody.add_frame(pos=[i % HUMANOIDS_IN_A_ROW * 1.5 - first[0], i // HUMANOIDS_IN_A_ROW * 1.5 - first[1], 0])
-        crowd.attach(other, prefix=f"h{i}_", frame=place)
-    return crowd.compile()
-
-
-def models(folder):
-    """Name -> (model, steps to simulate first, why it is left out). folder: of a source tree of MuJoCo, or None."""
-    import mujoco
-    humanoid = _shipped_humanoid()
-    if humanoid is None:
-        yield "humanoid, 22 humanoids", None, 0, "the package mujoco-mjx with the model file is not installed"
-    else:
-        yield "humanoid", mujoco.MjModel.from_xml_path(str(humanoid)), 250, ""
-        yield "22 humanoids", _crowd(mujoco, humanoid, 22), 800, ""
-    for name, file, steps in (("hammock", "model/hammock/hammock.xml", 500),
-                              ("stacked boxes", "test/engine/testdata/collision_convex/stacked_boxes.xml", 300)):
-        path = folder and Path(folder) / file
-        if path and path.exists():
-            yield name, mujoco.MjModel.from_xml_path(str(path)), steps, ""
-        else:
-            yield name, None, 0, f"no package ships {file}; give a source tree of MuJoCo with --mujoco"
+def missing():
+    """Why there is nothing to compare with, or "" where there is."""
+    if importlib.util.find_spec("mujoco") is None:
+        return "MuJoCo is not installed"
+    return "" if soft_models.humanoid_file() else "the package mujoco-mjx with the model of the humanoid is not installed"
 
 
 def _settle(mujoco, model, steps):
