@@ -117,6 +117,16 @@ class Comparison(unittest.TestCase):
         self.assertIn("left out: no real problems", text)
 
 
+class FiguresWithoutPeers(unittest.TestCase):
+    def test_each_is_measured_or_says_why_not(self):
+        measured = list(figures.measured_alone(LIBRARY, LIBRARY, None, quick=True))
+        self.assertGreaterEqual(len(measured), 9)
+        for figure in measured:
+            with self.subTest(figure.name):
+                self.assertRegex(figure.measured, r"\d|^left out: \w")
+                self.assertNotIn("nan", figure.measured)
+
+
 class Workers(unittest.TestCase):
     def setUp(self):
         self.problem = families.scene("pile", 12).problem(LIBRARY)

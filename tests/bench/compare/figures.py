@@ -181,7 +181,7 @@ def _soft(library, turns):
 
 def _growth(library, quick):
     for family, sizes in GROWTH.items():
-        sizes = sizes[:3] if quick else sizes
+        sizes = sizes[:2] if quick else sizes
         seconds = []
         for size in sizes:
             problem = families.scene(family, size).problem(library)
@@ -230,9 +230,8 @@ def _native(library, native, robots, quick, turns):
         return Figure(title, "≤ 1.1", "", "left out: not built")
     notes, ratios = [], []
     for problem, how in ((robots, lib.KNOWN), (families.scene("pile", 300 if quick else 3000).problem(library), lib.COLD)):
-        same = families.scene(*problem.name.split()).problem(native) if problem.family != "real" else Problem(
-            problem.name, "real", native, native.clone(problem))
-        runs = [lib.Run(which, p.handle, p.n, p.m, DEFAULT, TOLERANCE) for which, p in ((library, problem), (native, same))]
+        same = [Problem(problem.name, problem.family, which, which.clone(problem)) for which in (library, native)]
+        runs = [lib.Run(p.library, p.handle, p.n, p.m, DEFAULT, TOLERANCE) for p in same]
         distributed, tuned = _in_turns(runs, how, max(3, turns // 3))
         ratios.append(distributed / tuned)
         notes.append(f"{problem.name}: {tables.duration(distributed)} and {tables.duration(tuned)}")
