@@ -41,7 +41,8 @@ def session(cold):
 class Errors(unittest.TestCase):
     def setUp(self):
         # a body of 2 kg on a floor that lets it down at 1 m/s: v = −1, γ = 2 · (−1) − k
-        self.measure = Measure(sp.csc_matrix([[2.0]]), sp.csr_matrix([[1.0]]), sp.csc_matrix((1, 1)), *(np.array([x]) for x in (-3.0, -1.0, 0.0, np.inf)))
+        matrices = sp.csc_matrix([[2.0]]), sp.csr_matrix([[1.0]]), sp.csc_matrix((1, 1))
+        self.measure = Measure(*matrices, *(np.array([x]) for x in (-3.0, -1.0, 0.0, np.inf)))
 
     def test_the_solution_has_none(self):
         errors = self.measure.largest(np.array([-1.0]), np.array([1.0]))

@@ -2,7 +2,7 @@
 from dataclasses import dataclass, field
 
 from . import library as lib
-from .peers import DUAL_DENSE, DUAL_SPARSE, PRIMAL_DENSE, PRIMAL_SPARSE, Outcome
+from .peers import DUAL_SPARSE, PRIMAL_DENSE, PRIMAL_SPARSE, Outcome
 from .problem import LARGEST_DENSE
 
 OURS = "libmlcp"

@@ -49,7 +49,8 @@ def _best(group, how):
     """Our default row and the fastest peer by each of the two measures."""
     ours = tables.default_row(group)
     peers = [row for row in group if not tables.is_ours(row)]
-    fastest = [next(iter(tables.counted(peers, how, reached)), None) for reached in (lambda row: row.reached, lambda row: row.reached_normwise)]
+    fastest = [next(iter(tables.counted(peers, how, reached)), None)
+               for reached in (lambda row: row.reached, lambda row: row.reached_normwise)]
     return (ours if ours and ours.reached else None), *fastest
 
 
@@ -137,7 +138,8 @@ def _sequences(library, problems, quick):
         ratios[name] = _warm_and_cold(library, handles)[0]
         for handle in handles:
             library.destroy(handle)
-    yield Figure(title, "≤ 0.5", "≤ 0.2", f"{np.median(list(ratios.values())):.2g}", ", ".join(f"{name} {ratio:.2g}" for name, ratio in ratios.items()))
+    yield Figure(title, "≤ 0.5", "≤ 0.2", f"{np.median(list(ratios.values())):.2g}",
+                 ", ".join(f"{name} {ratio:.2g}" for name, ratio in ratios.items()))
 
 
 def _warm_and_cold(library, handles, passes=5):

@@ -10,6 +10,7 @@ matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402  needs the backend first
 
 SMALLEST = 1e-17
+OURS = ("black", "dimgrey", "darkgrey", "silver")
 
 
 def front(rows):
@@ -27,8 +28,9 @@ def _panel(axes, name, rows, colours):
         of_solver = [row for row in rows if row.solver == solver]
         points = front(of_solver)
         if len(points):
-            axes.loglog(points[:, 0], points[:, 1], marker="o", markersize=3.5, label=solver, color=colours[solver],
-                        linewidth=2.2 if is_ours(of_solver[0]) else 1.0, zorder=3 if is_ours(of_solver[0]) else 2)
+            marker, width, order = ("s", 2.2, 3) if is_ours(of_solver[0]) else ("o", 1.0, 2)
+            axes.loglog(points[:, 0], points[:, 1], marker=marker, markersize=3.5, linewidth=width, zorder=order, label=solver,
+                        color=colours[solver])
     axes.axhline(1e-9, color="grey", linewidth=0.6, linestyle=":")
     axes.set_title(f"{name}: {rows[0].n} velocities, {rows[0].m} rows", fontsize=9)
     axes.set_ylim(SMALLEST / 3, 30)
@@ -37,8 +39,9 @@ def _panel(axes, name, rows, colours):
 
 
 def _colours(rows):
-    names = list(dict.fromkeys(row.solver for row in rows))
-    return {name: pyplot.get_cmap("tab20")(i % 20) for i, name in enumerate(names)}
+    ours = dict.fromkeys(row.solver for row in rows if is_ours(row))
+    peers = dict.fromkeys(row.solver for row in rows if not is_ours(row))
+    return dict(zip(ours, OURS)) | {name: pyplot.get_cmap("tab20")(2 * i % 20 + i // 10) for i, name in enumerate(peers)}
 
 
 def _save(figure, path):
@@ -69,5 +72,5 @@ def write(folder, rows, chosen):
     figure.supxlabel("seconds, cold", fontsize=9)
     figure.supylabel("largest error, by norm", fontsize=9)
     handles = {label: handle for axes in grid.flat for handle, label in zip(*axes.get_legend_handles_labels())}
-    figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=5, fontsize=8)
+    figure.legend(handles.values(), handles.keys(), loc="outside upper center", ncols=5, fontsize=8)
     _save(figure, folder / "work_precision.svg")

@@ -55,7 +55,8 @@ class Budget:
 
 
 def _sweep(problem, candidates, budget):
-    """A worker for every candidate that did not fail, after a first turn. Tighter settings of a peer and form that took too long are left out."""
+    """A worker for every candidate that did not fail, after a first turn. Where one took too long, tighter settings of the same peer and
+    form are left out."""
     hopeless = set()
     for candidate in candidates:
         row = Row(problem.name, problem.family, problem.n, problem.m, candidate.solver, candidate.form,

@@ -53,8 +53,8 @@ def exact_problem(library, name, model, steps):
     K = mujoco.mjtConstraint
     kept = np.isin(kinds, [K.mjCNSTR_EQUALITY, K.mjCNSTR_LIMIT_JOINT, K.mjCNSTR_LIMIT_TENDON, K.mjCNSTR_CONTACT_FRICTIONLESS])
     if mujoco.mj_isSparse(model):
-        J = sp.csr_matrix((data.efc_J[:data.efc_J_rowadr[m - 1] + data.efc_J_rownnz[m - 1]], data.efc_J_colind[:data.efc_J_rowadr[m - 1] + data.efc_J_rownnz[m - 1]],
-                           np.append(data.efc_J_rowadr[:m], data.efc_J_rowadr[m - 1] + data.efc_J_rownnz[m - 1])), shape=(m, n))
+        entries = data.efc_J_rowadr[m - 1] + data.efc_J_rownnz[m - 1]
+        J = sp.csr_matrix((data.efc_J[:entries], data.efc_J_colind[:entries], np.append(data.efc_J_rowadr[:m], entries)), shape=(m, n))
     else:
         J = sp.csr_matrix(data.efc_J[:m * n].reshape(m, n))
     M = np.zeros((n, n))
@@ -66,4 +66,5 @@ def exact_problem(library, name, model, steps):
     r = np.where(bilateral | (gap < 0), -STABILISATION / h * gap, -gap / h)
     lo = np.where(bilateral, -np.inf, 0.0)
     k = M @ (data.qvel + h * data.qacc_smooth)
-    return Problem(f"MuJoCo {name}", "mujoco", library, library.assemble(M, J[kept], k, r[kept], lo[kept], np.full(np.count_nonzero(kept), np.inf)))
+    hi = np.full(np.count_nonzero(kept), np.inf)
+    return Problem(f"MuJoCo {name}", "mujoco", library, library.assemble(M, J[kept], k, r[kept], lo[kept], hi))

@@ -71,4 +71,5 @@ def boxes():
 
 
 # name -> how it is made, steps until it is looked at
-MODELS = {"humanoid": (lambda: crowd(1), 250), "22 humanoids": (lambda: crowd(22), 800), "hammock": (hammock, 500), "stacked boxes": (boxes, 300)}
+MODELS = {"humanoid": (lambda: crowd(1), 250), "22 humanoids": (lambda: crowd(22), 800), "hammock": (hammock, 500),
+          "stacked boxes": (boxes, 300)}

@@ -96,5 +96,5 @@ def solvers(rows):
 
 def wrong(rows):
     """Every answer that claims success and is not one."""
-    lines = [[row.problem, row.solver, row.form, row.setting or "—", f"{row.normwise:.0e}"] for row in rows if row.wrong and not is_ours(row)]
+    lines = [[row.problem, row.solver, row.form, row.setting, f"{row.normwise:.0e}"] for row in rows if row.wrong and not is_ours(row)]
     return markdown(["problem", "solver", "form", "setting", "error by norm"], lines) if lines else "None.\n"

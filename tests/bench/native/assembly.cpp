@@ -153,8 +153,8 @@ handles::Problem Assembly::build(const mlcp_allocator* allocator) const {
     std::size_t next = b + 1;
     if (body.dense) {  // a run of equal dimension goes in one call
       while (next < bodies_.size() && bodies_[next].dense && bodies_[next].dimension == body.dimension) ++next;
-      check(mlcp_problem_bodies_add(problem.get(), static_cast<std::int32_t>(next - b), body.dimension, mass_.data() + body.first, 0, nullptr),
-            problem);
+      const auto count = static_cast<std::int32_t>(next - b);
+      check(mlcp_problem_bodies_add(problem.get(), count, body.dimension, mass_.data() + body.first, 0, nullptr), problem);
     } else {
       check(mlcp_problem_body_add_sparse(problem.get(), body.dimension, body.pointers.data(), body.indices.data(),
                                          mass_.data() + body.first, MLCP_FULL, nullptr), problem);
@@ -175,10 +175,9 @@ void Assembly::step(const handles::Problem& problem) const {
 
 void Assembly::add_rows(const handles::Problem& problem) const {
   const std::int32_t m = length(r_);
-  check(mlcp_problem_rows_add_csr(problem.get(), m, row_pointers_.data(), columns_.data(), jacobian_.data(), r_.data(), lo_.data(), hi_.data(),
-                                  sigma_.empty() ? compliance_.data() : nullptr, key_.data(), nullptr), problem);
-  if (!sigma_.empty())
-    check(mlcp_problem_set_compliance_matrix(problem.get(), m, sigma_pointers_.data(), sigma_indices_.data(), sigma_.data(), MLCP_FULL), problem);
+  check(mlcp_problem_rows_add_csr(problem.get(), m, row_pointers_.data(), columns_.data(), jacobian_.data(), r_.data(), lo_.data(),
+                                  hi_.data(), sigma_.empty() ? compliance_.data() : nullptr, key_.data(), nullptr), problem);
+  if (!sigma_.empty()) set_sigma(problem);
 }
 
 void Assembly::set_masses(const handles::Problem& problem) const {
@@ -198,8 +197,13 @@ void Assembly::refresh(const handles::Problem& problem) const {
   if (sigma_.empty())
     check(mlcp_problem_rows_set_compliance(problem.get(), 0, length(compliance_), compliance_.data()), problem);
   else
-    check(mlcp_problem_set_compliance_matrix(problem.get(), length(r_), sigma_pointers_.data(), sigma_indices_.data(), sigma_.data(), MLCP_FULL),
-          problem);
+    set_sigma(problem);
+}
+
+void Assembly::set_sigma(const handles::Problem& problem) const {
+  check(mlcp_problem_set_compliance_matrix(problem.get(), length(r_), sigma_pointers_.data(), sigma_indices_.data(), sigma_.data(),
+                                           MLCP_FULL),
+        problem);
 }
 
 }  // namespace bench

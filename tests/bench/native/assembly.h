@@ -30,6 +30,7 @@ class Assembly {
   void spread_mass(const Assembly& pattern);
   void add_rows(const handles::Problem& problem) const;
   void set_masses(const handles::Problem& problem) const;
+  void set_sigma(const handles::Problem& problem) const;
 
   struct Body {
     std::int32_t dimension;

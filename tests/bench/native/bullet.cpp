@@ -16,7 +16,8 @@ std::int32_t bench_dense_solve(std::int32_t m, std::int32_t bilateral, const dou
   std::transform(b, b + m, right.begin(), [](double value) { return static_cast<btScalar>(-value); });
   btDantzigScratchMemory scratch;
   const double start = bench::wall_seconds();
-  const bool good = btSolveDantzigLCP(m, matrix.data(), x.data(), right.data(), w.data(), bilateral, low.data(), high.data(), findex.data(), scratch);
+  const bool good = btSolveDantzigLCP(m, matrix.data(), x.data(), right.data(), w.data(), bilateral, low.data(), high.data(),
+                                      findex.data(), scratch);
   *seconds = bench::wall_seconds() - start;
   std::copy(x.begin(), x.end(), gamma);
   return good ? 0 : 1;

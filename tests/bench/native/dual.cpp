@@ -192,7 +192,8 @@ void Dual::solve_dense(const Block& block) {
   block_mass_.setZero(n, n);
   for (Eigen::Index j = 0; j < n; ++j) {
     const std::int32_t column = velocities_[block.velocities + j];
-    for (std::int32_t e = mass_.pointers[column]; e < mass_.pointers[column + 1]; ++e) block_mass_(local_[mass_.indices[e]], j) = mass_.values[e];
+    for (std::int32_t e = mass_.pointers[column]; e < mass_.pointers[column + 1]; ++e)
+      block_mass_(local_[mass_.indices[e]], j) = mass_.values[e];
   }
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(block_mass_);
   require_definite(factor.info() == Eigen::Success);

@@ -36,7 +36,8 @@ class Peer(Packaged):
             qp = problem.dual
             low, high = np.isfinite(qp.lo), np.isfinite(qp.hi)
             unit = sp.identity(problem.m, format="csr")
-            self._data = (sp.triu(qp.H, format="csc"), qp.g, sp.vstack([-unit[low], unit[high]]).tocsc(), np.concatenate([-qp.lo[low], qp.hi[high]]))
+            rows, sides = sp.vstack([-unit[low], unit[high]]).tocsc(), np.concatenate([-qp.lo[low], qp.hi[high]])
+            self._data = (sp.triu(qp.H, format="csc"), qp.g, rows, sides)
             self._cones = [clarabel.NonnegativeConeT(int(np.count_nonzero(low) + np.count_nonzero(high)))]
         self._solver = None
 

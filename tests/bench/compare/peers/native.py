@@ -27,8 +27,8 @@ def help_with_ties(nudge, softness):
 
 
 class NativePeer:
-    """nudge: b is made larger by up to so much of its largest entry, at random. softness: A's diagonal is made larger by so much of itself, as
-    engines do (their CFM). See help_with_ties."""
+    """nudge: b is made larger by up to so much of its largest entry, at random. softness: A's diagonal is made larger by so much of
+    itself, as engines do (their CFM). See help_with_ties."""
     forms = (DUAL_DENSE,)
     settings = {"as given": {"nudge": 0.0, "softness": 0.0}}
     timer = "ours, in C++, around its solve alone"

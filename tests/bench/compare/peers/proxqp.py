@@ -4,7 +4,7 @@ import time
 import numpy as np
 import scipy.sparse as sp
 
-from . import DUAL_DENSE, DUAL_SPARSE, FORMS, PRIMAL_DENSE, PRIMAL_SPARSE, Outcome, Packaged
+from . import DUAL_DENSE, FORMS, PRIMAL_DENSE, PRIMAL_SPARSE, Outcome, Packaged
 
 
 class Peer(Packaged):
