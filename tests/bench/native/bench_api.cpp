@@ -50,6 +50,13 @@ Settings settings_of(std::int32_t method, double tolerance = 1e-9, std::int32_t 
   return settings;
 }
 
+/// A known pattern is not a warm start.
+template <class Settings>
+Settings without_history(Settings settings) {
+  if constexpr (requires { settings.warm_start; }) settings.warm_start = 0;
+  return settings;
+}
+
 }  // namespace
 
 int bench_has_threads() {
@@ -75,7 +82,7 @@ int bench_record_pile(std::int32_t spheres, std::int32_t steps, const char* fold
 
 bench_run* bench_run_create(const mlcp_problem* problem, std::int32_t method, double tolerance, std::int32_t threads) {
   return guard<bench_run*>(nullptr, [&] {
-    return new bench_run{bench::LibraryRun(problem, settings_of<mlcp_settings>(method, tolerance, threads))};
+    return new bench_run{bench::LibraryRun(problem, without_history(settings_of<mlcp_settings>(method, tolerance, threads)))};
   });
 }
 
@@ -119,7 +126,7 @@ int bench_sequence(const mlcp_problem* const* steps, std::int32_t count, std::in
 int bench_candidate_rows(const mlcp_problem* problem, std::int32_t stride, std::int32_t known, std::int32_t turns, double* masked,
                          double* alone) {
   return guard(-1, [&] {
-    const auto times = bench::candidate_rows(problem, stride, known != 0, settings_of<mlcp_settings>(MLCP_METHOD_AUTO), turns);
+    const auto times = bench::candidate_rows(problem, stride, known != 0, without_history(settings_of<mlcp_settings>(MLCP_METHOD_AUTO)), turns);
     *masked = times.masked;
     *alone = times.alone;
     return 0;
@@ -127,7 +134,7 @@ int bench_candidate_rows(const mlcp_problem* problem, std::int32_t stride, std::
 }
 
 std::int64_t bench_allocations(const mlcp_problem* problem, std::int32_t method) {
-  return guard<std::int64_t>(-1, [&] { return bench::allocations_of_known_step(problem, settings_of<mlcp_settings>(method)); });
+  return guard<std::int64_t>(-1, [&] { return bench::allocations_of_known_step(problem, without_history(settings_of<mlcp_settings>(method))); });
 }
 
 int bench_oracle(const bench_run* run, std::int32_t repeats, double* analyze, double* factorize) {
