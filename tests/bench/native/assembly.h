@@ -37,7 +37,10 @@ class Assembly {
     bool dense;
     std::size_t first;                           // in mass_
     std::vector<std::int32_t> pointers, indices; // compressed columns of a sparse body
-    std::size_t entries() const { return dense ? static_cast<std::size_t>(dimension) * static_cast<std::size_t>(dimension) : indices.size(); }
+    std::size_t entries() const {
+      const auto d = static_cast<std::size_t>(dimension);
+      return dense ? d * d : indices.size();
+    }
   };
 
   std::vector<Body> bodies_;

@@ -126,7 +126,8 @@ int bench_sequence(const mlcp_problem* const* steps, std::int32_t count, std::in
 int bench_candidate_rows(const mlcp_problem* problem, std::int32_t stride, std::int32_t known, std::int32_t turns, double* masked,
                          double* alone) {
   return guard(-1, [&] {
-    const auto times = bench::candidate_rows(problem, stride, known != 0, without_history(settings_of<mlcp_settings>(MLCP_METHOD_AUTO)), turns);
+    const mlcp_settings settings = without_history(settings_of<mlcp_settings>(MLCP_METHOD_AUTO));
+    const auto times = bench::candidate_rows(problem, stride, known != 0, settings, turns);
     *masked = times.masked;
     *alone = times.alone;
     return 0;
@@ -134,7 +135,8 @@ int bench_candidate_rows(const mlcp_problem* problem, std::int32_t stride, std::
 }
 
 std::int64_t bench_allocations(const mlcp_problem* problem, std::int32_t method) {
-  return guard<std::int64_t>(-1, [&] { return bench::allocations_of_known_step(problem, without_history(settings_of<mlcp_settings>(method))); });
+  return guard<std::int64_t>(
+      -1, [&] { return bench::allocations_of_known_step(problem, without_history(settings_of<mlcp_settings>(method))); });
 }
 
 int bench_oracle(const bench_run* run, std::int32_t repeats, double* analyze, double* factorize) {

@@ -11,7 +11,8 @@ namespace {
 
 using handles::check;
 
-double solve_once(const mlcp_problem* problem, const mlcp_mask* enabled, handles::Solver& solver, bool known, const mlcp_settings& settings) {
+double solve_once(const mlcp_problem* problem, const mlcp_mask* enabled, handles::Solver& solver, bool known,
+                  const mlcp_settings& settings) {
   if (!known) solver = handles::make_solver(&settings);
   const double start = wall_seconds();
   check(mlcp_solve(solver.get(), problem, enabled, nullptr, nullptr), solver);

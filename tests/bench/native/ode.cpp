@@ -18,7 +18,8 @@ std::int32_t bench_dense_solve(std::int32_t m, std::int32_t bilateral, const dou
     right[i] = -b[i];
   }
   const double start = bench::wall_seconds();
-  const bool good = ode::dSolveLCP(m, matrix.data(), gamma, right.data(), w.data(), bilateral, low.data(), high.data(), findex.data(), false);
+  const bool good = ode::dSolveLCP(m, matrix.data(), gamma, right.data(), w.data(), bilateral, low.data(), high.data(),
+                                   findex.data(), false);
   *seconds = bench::wall_seconds() - start;
   return good ? 0 : 1;
 }
