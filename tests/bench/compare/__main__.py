@@ -43,7 +43,7 @@ def sources(options, folder):
     return found
 
 
-def compare(library, found, peers, budget, tolerances):
+def compare(library, found, peers, budget, tolerances, csv_file):
     rows = []
     for number, source in enumerate(found, 1):
         try:
@@ -56,6 +56,7 @@ def compare(library, found, peers, budget, tolerances):
             contestants += candidates.of_peer(peer, problem)
         print(f"[{number}/{len(found)}] {problem.name}: {problem.n} velocities, {problem.m} rows, {len(contestants)} candidates", flush=True)
         rows += rounds.compare(problem, contestants, budget)
+        tables.write_csv(csv_file, rows)  # a run that is stopped keeps what it has
     return rows
 
 
@@ -84,8 +85,7 @@ def main():
     budget = rounds.Budget(options.seconds or (0.1 if options.quick else 2), options.limit or (3 if options.quick else 60),
                            5 if options.quick else 21)
     tolerances = (1e-9,) if options.figures else (1e-3, 1e-6, 1e-9, 1e-12)
-    rows = compare(library, sources(options, folder), peers, budget, tolerances)
-    tables.write_csv(options.output / "times.csv", rows)
+    rows = compare(library, sources(options, folder), peers, budget, tolerances, options.output / "times.csv")
     if not options.figures:
         plots.write(options.output, rows, CHOSEN)
     report = [head(library, peers, missing), "## Problems\n", tables.summary(rows), "## Solvers\n", tables.solvers(rows),
