@@ -5,6 +5,7 @@
 
 #include <iostream>
 
+#include "bench_command.h"
 #include "convert_command.h"
 #include "info_command.h"
 #include "mlcp.h"
@@ -34,6 +35,17 @@ void add_solve(CLI::App& app, cli::SolveOptions& options) {
   solve.footer(std::string("A snapshot brings its own settings; what is given here goes first.\n") + counting);
 }
 
+void add_bench(CLI::App& app, cli::BenchOptions& options) {
+  CLI::App& bench = *app.add_subcommand("bench", "Time against error for every method, medians of solves in turns");
+  bench.add_option("PROBLEM", options.problems, "Folders of Matrix Market files, or snapshots")->required();
+  bench.add_option("--tolerance", options.tolerances, "One or more, separated by commas")->delimiter(',')->capture_default_str();
+  bench.add_option("--seconds", options.seconds, "For all turns on one problem; three turns at least")->capture_default_str();
+  bench.add_option("--max-seconds", options.max_seconds, "Of one solve [no limit]");
+  add_output(bench, options.output);
+  bench.footer("Wall clock, from no active set. cold: a new solver, analysis included; known: the same solver once more.\n"
+               "A method that stops at a limit or cannot do a problem says so in its status; the exit code does not.");
+}
+
 /// Message on standard error; where JSON was asked for, also an object on standard output.
 int bad_input(const std::string& message, bool json) {
   std::cerr << "mlcp: " << message << "\n";
@@ -60,6 +72,9 @@ int main(int argc, char** argv) {
   add_output(info, info_output);
   info.footer(counting);
 
+  cli::BenchOptions bench;
+  add_bench(app, bench);
+
   std::string from, to;
   CLI::App& convert = *app.add_subcommand("convert", "Between folder and snapshot");
   convert.add_option("IN", from, "Folder or snapshot")->required();
@@ -72,10 +87,12 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
     if (info.parsed()) cli::run_info(info_path, info_output);
     if (convert.parsed()) cli::run_convert(from, to);
+    if (app.got_subcommand("bench")) cli::run_bench(bench);
     return app.got_subcommand("solve") ? cli::run_solve(solve) : Exit::Solved;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? Exit::Solved : Exit::BadInput;
   } catch (const std::exception& error) {
-    return bad_input(error.what(), (app.got_subcommand("solve") ? solve.output : info_output) == "json");
+    const std::string& output = app.got_subcommand("solve") ? solve.output : app.got_subcommand("bench") ? bench.output : info_output;
+    return bad_input(error.what(), output == "json");
   }
 }

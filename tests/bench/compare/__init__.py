@@ -1,0 +1,1 @@
+"""The benchmark: libmlcp and its peers on the same problems, in the same run."""

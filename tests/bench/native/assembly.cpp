@@ -1,0 +1,209 @@
+#include "assembly.h"
+
+#include <algorithm>
+
+namespace bench {
+namespace {
+
+using handles::check;
+
+mlcp_matrix_view view_of(mlcp_status (*get)(const mlcp_problem*, mlcp_matrix_view*), const mlcp_problem* problem) {
+  mlcp_matrix_view view;
+  mlcp_matrix_view_init(&view, sizeof view);
+  check(get(problem, &view));
+  return view;
+}
+
+std::int32_t length(const auto& array) { return static_cast<std::int32_t>(array.size()); }
+
+}  // namespace
+
+Assembly::Assembly(const mlcp_problem* problem) {
+  const std::int32_t n = mlcp_problem_velocity_count(problem), m = mlcp_problem_row_count(problem);
+  const mlcp_matrix_view mass = view_of(mlcp_problem_mass, problem);
+  std::vector<std::int32_t> ids(static_cast<std::size_t>(mlcp_problem_body_count(problem)));
+  std::int32_t count = 0;
+  check(mlcp_problem_bodies(problem, length(ids), ids.data(), &count));
+  for (const std::int32_t id : ids) {
+    std::int32_t offset = 0, prescribed = 0;
+    Body body{0, false, mass_.size(), {0}, {}};
+    check(mlcp_problem_body_range(problem, id, &offset, &body.dimension));
+    check(mlcp_problem_body_state(problem, id, &prescribed, 0, nullptr));
+    if (prescribed) throw std::runtime_error("prescribed bodies are not benchmarked");
+    for (std::int32_t j = offset; j < offset + body.dimension; ++j) {
+      for (std::int32_t e = mass.pointers[j]; e < mass.pointers[j + 1]; ++e) body.indices.push_back(mass.indices[e] - offset);
+      body.pointers.push_back(length(body.indices));
+    }
+    const double* values = mass.values + mass.pointers[offset];
+    body.dense = body.indices.size() == static_cast<std::size_t>(body.dimension) * static_cast<std::size_t>(body.dimension);
+    mass_.insert(mass_.end(), values, values + body.indices.size());
+    if (body.dense) {
+      for (std::int32_t j = 0; j < body.dimension; ++j)
+        for (std::int32_t e = body.pointers[static_cast<std::size_t>(j)]; e < body.pointers[static_cast<std::size_t>(j) + 1]; ++e)
+          mass_[body.first + static_cast<std::size_t>(j * body.dimension + body.indices[static_cast<std::size_t>(e)])] = values[e];
+      body.pointers.clear();
+      body.indices.clear();
+    }
+    bodies_.push_back(std::move(body));
+  }
+  k_.resize(static_cast<std::size_t>(n));
+  check(mlcp_problem_get_momentum(problem, n, k_.data()));
+
+  const mlcp_matrix_view jacobian = view_of(mlcp_problem_jacobian, problem);
+  row_pointers_.assign(jacobian.pointers, jacobian.pointers + m + 1);
+  columns_.assign(jacobian.indices, jacobian.indices + jacobian.entries);
+  jacobian_.assign(jacobian.values, jacobian.values + jacobian.entries);
+  for (auto* array : {&r_, &lo_, &hi_, &compliance_}) array->resize(static_cast<std::size_t>(m));
+  key_.resize(static_cast<std::size_t>(m));
+  check(mlcp_problem_get_rows(problem, m, r_.data(), lo_.data(), hi_.data(), compliance_.data(), key_.data()));
+
+  const mlcp_matrix_view sigma = view_of(mlcp_problem_compliance, problem);
+  bool diagonal = true;
+  for (std::int32_t j = 0; j < sigma.columns; ++j)
+    for (std::int32_t e = sigma.pointers[j]; e < sigma.pointers[j + 1]; ++e) diagonal &= sigma.indices[e] == j;
+  if (diagonal) return;
+  sigma_pointers_.assign(sigma.pointers, sigma.pointers + m + 1);
+  sigma_indices_.assign(sigma.indices, sigma.indices + sigma.entries);
+  sigma_.assign(sigma.values, sigma.values + sigma.entries);
+}
+
+void Assembly::append(const Assembly& other) {
+  if (!sigma_.empty() || !other.sigma_.empty()) throw std::runtime_error("only problems with a diagonal compliance go side by side");
+  const std::int32_t n = length(k_), entries = length(columns_);
+  for (Body body : other.bodies_) {
+    body.first += mass_.size();
+    bodies_.push_back(std::move(body));
+  }
+  for (const std::int32_t column : other.columns_) columns_.push_back(n + column);
+  for (std::size_t i = 1; i < other.row_pointers_.size(); ++i) row_pointers_.push_back(entries + other.row_pointers_[i]);
+  const auto join = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  join(mass_, other.mass_);
+  join(k_, other.k_);
+  join(jacobian_, other.jacobian_);
+  join(r_, other.r_);
+  join(lo_, other.lo_);
+  join(hi_, other.hi_);
+  join(compliance_, other.compliance_);
+  key_.resize(r_.size());  // keys of different problems would meet: none
+}
+
+void Assembly::share_mass_pattern(std::span<Assembly> steps) {
+  if (steps.empty()) return;
+  Assembly all = steps.front();
+  for (std::size_t b = 0; b < all.bodies_.size(); ++b) {
+    Body& body = all.bodies_[b];
+    for (const Assembly& step : steps) {
+      if (step.bodies_.size() != all.bodies_.size() || step.bodies_[b].dimension != body.dimension)
+        throw std::runtime_error("the steps of a sequence have different bodies");
+      body.dense |= step.bodies_[b].dense;
+    }
+    if (body.dense) {
+      body.pointers.clear();
+      body.indices.clear();
+      continue;
+    }
+    std::vector<std::int32_t> column;
+    body.indices.clear();
+    for (std::size_t j = 0; j < static_cast<std::size_t>(body.dimension); ++j) {
+      column.clear();
+      for (const Assembly& step : steps) {
+        const Body& other = step.bodies_[b];
+        column.insert(column.end(), other.indices.begin() + other.pointers[j], other.indices.begin() + other.pointers[j + 1]);
+      }
+      std::sort(column.begin(), column.end());
+      column.erase(std::unique(column.begin(), column.end()), column.end());
+      body.indices.insert(body.indices.end(), column.begin(), column.end());
+      body.pointers[j + 1] = length(body.indices);
+    }
+  }
+  for (Assembly& step : steps) step.spread_mass(all);
+}
+
+/// M in a larger pattern.
+void Assembly::spread_mass(const Assembly& pattern) {
+  std::vector<double> mass, column;
+  std::vector<Body> bodies = pattern.bodies_;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    Body& to = bodies[b];
+    const Body& from = bodies_[b];
+    to.first = mass.size();
+    for (std::size_t j = 0; j < static_cast<std::size_t>(from.dimension); ++j) {
+      const auto d = static_cast<std::size_t>(from.dimension);
+      column.assign(d, 0.0);
+      if (from.dense)
+        std::copy_n(mass_.begin() + static_cast<std::ptrdiff_t>(from.first + j * d), d, column.begin());
+      else
+        for (std::int32_t e = from.pointers[j]; e < from.pointers[j + 1]; ++e) column[from.indices[e]] = mass_[from.first + e];
+      if (to.dense)
+        mass.insert(mass.end(), column.begin(), column.end());
+      else
+        for (std::int32_t e = to.pointers[j]; e < to.pointers[j + 1]; ++e) mass.push_back(column[to.indices[e]]);
+    }
+  }
+  bodies_ = std::move(bodies);
+  mass_ = std::move(mass);
+}
+
+handles::Problem Assembly::build(const mlcp_allocator* allocator) const {
+  mlcp_problem* made = nullptr;
+  check(mlcp_problem_create(allocator, &made));
+  handles::Problem problem(made);
+  for (std::size_t b = 0; b < bodies_.size();) {
+    const Body& body = bodies_[b];
+    std::size_t next = b + 1;
+    if (body.dense) {  // a run of equal dimension goes in one call
+      while (next < bodies_.size() && bodies_[next].dense && bodies_[next].dimension == body.dimension) ++next;
+      const auto count = static_cast<std::int32_t>(next - b);
+      check(mlcp_problem_bodies_add(problem.get(), count, body.dimension, mass_.data() + body.first, 0, nullptr), problem);
+    } else {
+      check(mlcp_problem_body_add_sparse(problem.get(), body.dimension, body.pointers.data(), body.indices.data(),
+                                         mass_.data() + body.first, MLCP_FULL, nullptr), problem);
+    }
+    b = next;
+  }
+  check(mlcp_problem_set_momentum(problem.get(), 0, length(k_), k_.data()), problem);
+  add_rows(problem);
+  return problem;
+}
+
+void Assembly::step(const handles::Problem& problem) const {
+  set_masses(problem);
+  check(mlcp_problem_set_momentum(problem.get(), 0, length(k_), k_.data()), problem);
+  check(mlcp_problem_rows_clear(problem.get()), problem);
+  add_rows(problem);
+}
+
+void Assembly::add_rows(const handles::Problem& problem) const {
+  const std::int32_t m = length(r_);
+  check(mlcp_problem_rows_add_csr(problem.get(), m, row_pointers_.data(), columns_.data(), jacobian_.data(), r_.data(), lo_.data(),
+                                  hi_.data(), sigma_.empty() ? compliance_.data() : nullptr, key_.data(), nullptr), problem);
+  if (!sigma_.empty()) set_sigma(problem);
+}
+
+void Assembly::set_masses(const handles::Problem& problem) const {
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    check(mlcp_problem_body_set_mass(problem.get(), static_cast<std::int32_t>(b), mass_.data() + bodies_[b].first,
+                                     static_cast<std::int64_t>(bodies_[b].entries())), problem);
+}
+
+void Assembly::refresh(const handles::Problem& problem) const {
+  set_masses(problem);
+  check(mlcp_problem_set_momentum(problem.get(), 0, length(k_), k_.data()), problem);
+  for (std::size_t i = 0; i < r_.size(); ++i) {
+    const std::int32_t first = row_pointers_[i], count = row_pointers_[i + 1] - first;
+    check(mlcp_problem_row_set_jacobian(problem.get(), static_cast<std::int32_t>(i), jacobian_.data() + first, count), problem);
+  }
+  check(mlcp_problem_rows_set_r(problem.get(), 0, length(r_), r_.data()), problem);
+  if (sigma_.empty())
+    check(mlcp_problem_rows_set_compliance(problem.get(), 0, length(compliance_), compliance_.data()), problem);
+  else
+    set_sigma(problem);
+}
+
+void Assembly::set_sigma(const handles::Problem& problem) const {
+  check(mlcp_problem_set_compliance_matrix(problem.get(), length(r_), sigma_pointers_.data(), sigma_indices_.data(), sigma_.data(),
+                                           MLCP_FULL),
+        problem);
+}
+
+}  // namespace bench
