@@ -4,7 +4,6 @@
 #include <memory>
 #include <new>
 
-#include "analyze/analysis.h"
 #include "measure/errors.h"
 #include "solve/basis.h"
 #include "solve/redundancy.h"
@@ -93,6 +92,7 @@ void Solver::set_settings(const Settings& settings) {
   state_->settings = settings;
 }
 
+const Analysis& Solver::analysis() const { return state_->analysis; }
 std::span<const std::int32_t> Solver::ordering() const { return state_->analysis.ordering.order.span(); }
 void Solver::impose_ordering(std::span<const std::int32_t> ordering) { state_->imposed.assign(ordering); }
 
