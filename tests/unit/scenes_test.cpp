@@ -186,7 +186,10 @@ TEST(Scenes, a_tower_stands) {
 }
 
 TEST(Scenes, draw_says_where_every_row_acts) {
-  const auto check_scene = [](auto&& scene) {
+  for (const Exhibit& exhibit : gallery()) {
+    SCOPED_TRACE(exhibit.name);
+    const auto made = make_scene(exhibit.name, 5);
+    Scene& scene = *made;
     scene.prepare(default_step);
     Drawing drawing;
     scene.draw(drawing);
@@ -209,12 +212,12 @@ TEST(Scenes, draw_says_where_every_row_acts) {
       }
       EXPECT_NEAR(length(d), 1, 1e-12);
     }
-  };
-  check_scene(Pile(30));
-  check_scene(Chain(10, true));
-  check_scene(Rope(10));
-  check_scene(tower_scene(3));
-  check_scene(wall_scene(3, 3));
+  }
+}
+
+TEST(Scenes, the_gallery_refuses_what_it_does_not_have) {
+  EXPECT_THROW(make_scene("gripper on the moon", 1), std::invalid_argument);
+  EXPECT_THROW(make_scene("pile", 0), std::invalid_argument);
 }
 
 TEST(Scenes, a_recorded_step_replays_to_the_same_bits) {
