@@ -58,7 +58,8 @@ cdef class BoundProblem:
 
     cdef int push(self) except -1:
         cdef mlcp_problem *problem = self.problem.handle
-        self.problem.editable()
+        if self.has_momentum or self.has_r or self.has_bounds:
+            self.problem.editable()
         if mlcp_problem_velocity_count(problem) != self.n or mlcp_problem_row_count(problem) != self.m:
             raise errors.StateError("the problem has got other sizes since it was bound")
         if self.has_momentum and self.n:
