@@ -24,7 +24,7 @@ def test_many_solvers_on_one_problem_get_the_same_bits():
 def test_the_gil_is_released_in_a_solve():
     """Python code runs on while a solve is under way, many times between its beginning and its end."""
     problem, running, ticks = pile(6000), threading.Event(), 0
-    solver = mlcp.Solver(refactorize="always")
+    solver = mlcp.Solver(method="simplex")
     thread = threading.Thread(target=lambda: (running.set(), solver.solve(problem)))
     thread.start()
     running.wait()
@@ -97,5 +97,5 @@ def test_solve_many_stops_the_others_when_one_fails():
     long = pile(6000)
     begin = time.perf_counter()
     with pytest.raises(mlcp.RangeError):
-        mlcp.solve_many([long, ball_and_joint()], [None, mlcp.Mask(1)], workers=2, refactorize="always")
+        mlcp.solve_many([long, ball_and_joint()], [None, mlcp.Mask(1)], workers=2, method="simplex")
     assert time.perf_counter() - begin < 5

@@ -19,12 +19,14 @@ Triangle: TypeAlias = Literal["full", "lower", "upper"]
 Path: TypeAlias = str | bytes | os.PathLike[str] | os.PathLike[bytes]
 F8: TypeAlias = NDArray[np.float64]
 
+Method: TypeAlias = Literal["auto", "simplex"]
+
 version: str
 pivot_dtype: np.dtype[np.void]
 scenes: dict[str, tuple[str, int]]
 
 class Settings(TypedDict, total=False):
-    method: Literal["auto", "simplex"]
+    method: Method
     pivot_rule: Literal["dual", "printed"]
     refactorize: Literal["when_needed", "always"]
     trace: bool

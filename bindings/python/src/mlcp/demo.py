@@ -61,16 +61,17 @@ def animate(steps: Sequence[Step], path: Path, h: float) -> None:
     """Write a film of the steps: GIF, or what else Matplotlib writes by the name's ending."""
     import matplotlib.pyplot as plt
     from matplotlib.animation import FuncAnimation, PillowWriter
+    from matplotlib.artist import Artist
 
     from . import plot
 
     strongest = max((float(np.max(np.abs(step.forces), initial=0.0)) for step in steps), default=0.0)
     axes = plot.scene(steps[0].drawing)
-    figure = axes.figure
+    figure = plt.gcf()
     extent = max(axes.dataLim.width, axes.dataLim.height)
     limits = axes.get_xlim(), axes.get_ylim()
 
-    def frame(i: int) -> list[object]:
+    def frame(i: int) -> list[Artist]:
         axes.clear()
         plot.contact_forces(steps[i].drawing, steps[i].forces, scale=0.125 * extent / strongest if strongest else None, axes=axes,
                             bar=False)
@@ -93,8 +94,8 @@ def picture(step: Step, path: Path) -> None:
 
     axes = plot.contact_forces(step.drawing, step.forces)
     axes.set_title(f"{step.time:.2f} s, {step.result.counts.active_rows} rows active")
-    axes.figure.savefig(path, dpi=150)
-    plt.close(axes.figure)
+    plt.savefig(path, dpi=150)
+    plt.close()
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -25,7 +25,7 @@ from .records import Drawing, Factor, RowState
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._core import SolverSettings
+    from ._core import Method, SolverSettings
 
 __all__ = ["active_set", "contact_forces", "scene", "sparsity", "work_precision"]
 
@@ -116,7 +116,7 @@ def active_set(result: Result, start: Mask | None = None, *, axes: Axes | None =
     return axes
 
 
-def work_precision(problem: Problem, methods: Iterable[str] = ("simplex",), *, points: int = 12, repeats: int = 3,
+def work_precision(problem: Problem, methods: Iterable[Method] = ("simplex",), *, points: int = 12, repeats: int = 3,
                    axes: Axes | None = None, **settings: Unpack[SolverSettings]) -> Axes:
     """Draw the error that each method reaches against the time it takes.
 
@@ -139,7 +139,8 @@ def work_precision(problem: Problem, methods: Iterable[str] = ("simplex",), *, p
     if axes is None:
         axes = plt.subplots(figsize=(6, 4.5), layout="constrained")[1]
     for method in methods:
-        solver = Solver(**{**settings, "method": method})  # type: ignore[typeddict-item]
+        solver = Solver(**settings)
+        solver.configure(method=method)
         whole = solver.solve(problem)
         limits = np.unique(np.geomspace(1, max(whole.counts.pivots, 1), points).astype(int))
         curve = [_time_and_error(solver, problem, int(limit), repeats) for limit in (*limits, settings.get("max_iterations", 0))]
