@@ -32,8 +32,9 @@ def test_from_matrices_takes_blocks_or_a_whole_mass():
     a = mlcp.Problem.from_matrices(blocks, 1.0, jacobian, [1, 2], -np.inf, [3, np.inf], compliance=0.5, keys=[7, 8])
     b = mlcp.Problem.from_matrices(sp.block_diag(blocks), np.ones(6), sp.csc_matrix(jacobian), [1, 2], -np.inf, [3, np.inf],
                                    compliance=sp.diags([0.5, 0.5]), keys=[7, 8])
+    c = mlcp.Problem.from_matrices(blocks, 1.0, jacobian, [1, 2], -np.inf, [3, np.inf], compliance=np.eye(2) / 2, keys=[7, 8])
     assert (a.body_count, b.body_count) == (2, 1)
-    for problem in (a, b):
+    for problem in (a, b, c):
         np.testing.assert_array_equal(problem.mass().toarray(), sp.block_diag(blocks).toarray())
         np.testing.assert_array_equal(problem.jacobian().toarray(), jacobian)
         np.testing.assert_array_equal(problem.compliance, [0.5, 0.5])

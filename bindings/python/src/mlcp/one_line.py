@@ -37,7 +37,7 @@ def solve(mass: MatrixLike, momentum: ArrayLike, jacobian: MatrixLike | None = N
         J. None: no rows.
     r, lo, hi : (m,) array or number
         Right-hand side, m/s, and bounds on the impulses, N·s; lo = −inf with hi = inf for joints, the default for contacts.
-    compliance : (m,) array, number, or (m, m) sparse
+    compliance : (m,) array, number, or (m, m) sparse or dense
         Σ, m/(N·s): its diagonal or all of it.
     **settings
         Keywords of `Solver`.

@@ -48,7 +48,7 @@ cdef class Problem(Lender):
             J. None: no rows.
         r, lo, hi : (m,) array or number
             Right-hand side, m/s, and bounds on the impulses, N·s. lo = −inf, hi = inf: bilateral; the default: unilateral.
-        compliance : (m,) array, number, or (m, m) sparse
+        compliance : (m,) array, number, or (m, m) sparse or dense
             Σ, m/(N·s): its diagonal or all of it.
         keys : (m,) array of integers ≥ 0, optional
             Identity of the rows over time steps; 0: none.
@@ -70,7 +70,7 @@ cdef class Problem(Lender):
         problem.set_momentum(doubles(momentum, "momentum", problem.velocities))
         if jacobian is None:
             return problem
-        if scipy.sparse.issparse(compliance):
+        if np.ndim(compliance) == 2 or scipy.sparse.issparse(compliance):
             problem.add_matrix_rows(jacobian, r, lo, hi, keys=keys)
             problem.set_compliance_matrix(compliance)
         else:
