@@ -1,4 +1,4 @@
-"""The helpers of mlcp_timestep_*; the one for momentum is Problem.set_timestep_momentum."""
+"""The functions of mlcp_timestep_*; the one for momentum is Problem.set_timestep_momentum."""
 
 def timestep_rows(double h, phi, phi_t=None, *, double stabilisation=0.2, bint unilateral=True):
     """r of constraint rows: −(K/h) φ − ∂φ/∂t.
