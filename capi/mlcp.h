@@ -529,6 +529,22 @@ MLCP_API mlcp_status mlcp_solver_island_outcomes(const mlcp_solver *solver, cons
 MLCP_API mlcp_status mlcp_solver_certificate(const mlcp_solver *solver, int32_t island, const int32_t **rows, const double **y,
                                              int32_t *count);
 
+/* Pattern of L of the last analysis, every enabled row in: K = [M J'; J -S] in elimination order. What couples to nothing is not in it.
+ * Positions count from 0; the first entry of a column is its parent in the elimination tree, and an island is a range of
+ * positions that ends with a column without entries. Lent until the solver's next non-const call. */
+typedef struct mlcp_factor_view {
+  size_t struct_size;
+  int32_t size;            /* positions */
+  int64_t entries;         /* below the diagonal */
+  const int32_t *nodes;    /* size; what stands at a position: velocity j as j, row i as n + i */
+  const int64_t *pointers; /* size + 1; compressed columns */
+  const int32_t *rows;     /* entries; positions, ascending in each column */
+} mlcp_factor_view;
+
+MLCP_API void mlcp_factor_view_init(mlcp_factor_view *view, size_t struct_size);
+/* MLCP_ERROR_STATE before the first mlcp_analyze or mlcp_solve, and after mlcp_solver_trim. */
+MLCP_API mlcp_status mlcp_solver_factor(const mlcp_solver *solver, mlcp_factor_view *factor);
+
 /* One step of the method, recorded when settings.trace is set. */
 typedef struct mlcp_pivot {
   int32_t island;

@@ -186,6 +186,21 @@ mlcp_status mlcp_solver_certificate(const mlcp_solver* solver, int32_t island, c
   });
 }
 
+void mlcp_factor_view_init(mlcp_factor_view* view, size_t struct_size) { init_struct(mlcp_factor_view{}, view, struct_size); }
+
+mlcp_status mlcp_solver_factor(const mlcp_solver* solver, mlcp_factor_view* factor) {
+  return look(solver, [&](const mlcp_solver& s) {
+    require(factor, "factor");
+    check_struct_size<mlcp_factor_view>("factor", factor->struct_size);
+    const Analysis& analysis = s.solver.analysis();
+    const Symbolic& symbolic = analysis.symbolic;
+    if (symbolic.pointers.empty()) throw Error(MLCP_ERROR_STATE, "nothing has been analyzed");
+    export_struct({factor->struct_size, symbolic.size(), symbolic.entries(), analysis.pattern.node.data(), symbolic.pointers.data(),
+                   symbolic.rows.data()},
+                  factor);
+  });
+}
+
 mlcp_status mlcp_solver_trace(const mlcp_solver* solver, const mlcp_pivot** pivots, int64_t* count) {
   return look(solver, [&](const mlcp_solver& s) {
     require(pivots, "pivots");

@@ -82,6 +82,7 @@ void Solver::set_settings(const Settings& settings) {
   state_->settings = settings;
 }
 
+const Analysis& Solver::analysis() const { return state_->main.analysis; }
 std::span<const std::int32_t> Solver::ordering() const { return state_->main.analysis.ordering.order.span(); }
 void Solver::impose_ordering(std::span<const std::int32_t> ordering) { state_->imposed.assign(ordering); }
 

@@ -2,6 +2,7 @@
 #include <memory>
 #include <span>
 
+#include "analyze/analysis.h"
 #include "assemble/mask.h"
 #include "assemble/problem.h"
 #include "report/result.h"
@@ -27,6 +28,8 @@ class Solver {
   void solve(const Problem& problem, const Mask* enabled, const Mask* start, mlcp_report& report);
   const Result& result() const;
 
+  /// The last analysis; without nodes before the first one.
+  const Analysis& analysis() const;
   /// Elimination order of the last analysis: velocity j is j, row i is n + i; empty before the first one.
   std::span<const std::int32_t> ordering() const;
   /// The start that keys gave the last solve, if it is one for this problem; else NULL.

@@ -100,4 +100,20 @@ void BoxStack::advance(double h, std::span<const double> v) {
   }
 }
 
+void BoxStack::draw(Drawing& to) const {
+  for (const Box& box : boxes_) {
+    Drawing::Corners& corners = to.boxes.emplace_back();
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+      const Point& e = box.half_extent;
+      corners[c] = box.centre + box.rotation * Point{c & 4 ? e[0] : -e[0], c & 2 ? e[1] : -e[1], c & 1 ? e[2] : -e[2]};
+    }
+  }
+  for (const Support& support : supports_) {
+    const Box& upper = boxes_[static_cast<std::size_t>(support.upper)];
+    const Rotation face = support.lower == MLCP_WORLD ? Rotation{} : boxes_[static_cast<std::size_t>(support.lower)].rotation;
+    for (const Point& point : support.points)
+      to.actions.push_back({upper.centre + upper.rotation * point, face * axes[2]});
+  }
+}
+
 }  // namespace scenes

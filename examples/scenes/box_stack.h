@@ -29,6 +29,7 @@ class BoxStack : public Scene {
 
   std::span<const Box> boxes() const { return boxes_; }
   std::span<const Support> supports() const { return supports_; }
+  void draw(Drawing& to) const override;
 
  protected:
   void add_rows(RowList& rows) const override;

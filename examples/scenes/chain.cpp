@@ -87,6 +87,21 @@ void Chain::advance(double h, std::span<const double> v) {
   }
 }
 
+void Chain::draw(Drawing& to) const {
+  Drawing::Path& chain = to.paths.emplace_back(Drawing::Path{{0, 0, 0}});
+  Point pin = {0, 0, 0};
+  for (const Link& link : links_) {
+    to.actions.push_back({pin, {1, 0, 0}});
+    to.actions.push_back({pin, {0, 0, 1}});
+    const Arm lower(link.half_x, link.half_y, link.angle);
+    pin = {link.x + lower.x, 0, link.y + lower.y};
+    chain.push_back(pin);
+    if (contacts_) to.actions.push_back({pin, {normal[0], 0, normal[1]}});
+  }
+  const double length = link_length * static_cast<double>(links_.size());
+  if (contacts_) to.paths.push_back({{0, 0, 0}, {length * along[0], 0, length * along[1]}});
+}
+
 Problem chain(int links, bool contacts, double mass_ratio) {
   return Scene::problem_of_step(Chain(links, contacts, mass_ratio));
 }

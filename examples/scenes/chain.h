@@ -12,6 +12,7 @@ namespace scenes {
 class Chain : public Scene {
  public:
   Chain(std::int32_t links, bool contacts, double mass_ratio = 1, unsigned seed = 1);
+  void draw(Drawing& to) const override;
 
  protected:
   void add_rows(RowList& rows) const override;

@@ -85,6 +85,16 @@ void Pile::advance(double h, std::span<const double> v) {
   }
 }
 
+void Pile::draw(Drawing& to) const {
+  for (std::size_t i = 0; i < packing_.centre.size(); ++i) to.spheres.push_back({packing_.centre[i], packing_.radius[i]});
+  const double s = packing_.side;
+  to.paths.push_back({{0, 0, 0}, {s, 0, 0}, {s, s, 0}, {0, s, 0}, {0, 0, 0}});
+  for (const Touch& touch : touches(packing_, margin_)) {
+    const auto b = static_cast<std::size_t>(touch.b);
+    to.actions.push_back({packing_.centre[b] - packing_.radius[b] * touch.normal, touch.normal});
+  }
+}
+
 Problem pile(int contacts, unsigned seed) {
   Pile scene(std::max(1, contacts / 3), seed);
   scene.limit_contacts(contacts);

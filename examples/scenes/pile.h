@@ -19,6 +19,8 @@ class Pile : public Scene {
   /// the limit all count. At most about eight a sphere exist.
   void limit_contacts(std::int32_t count);
 
+  void draw(Drawing& to) const override;
+
  protected:
   void add_rows(RowList& rows) const override;
   void add_forces(std::span<double> force) const override;

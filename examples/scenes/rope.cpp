@@ -82,6 +82,24 @@ void Rope::advance(double h, std::span<const double> v) {
   }
 }
 
+void Rope::draw(Drawing& to) const {
+  const auto in_space = [](double x, double y) { return Point{x, 0, y}; };
+  Drawing::Path& rope = to.paths.emplace_back();
+  for (const Node& node : nodes_) rope.push_back(in_space(node.x, node.y));
+  const double end = nodes_.back().x;
+  to.paths.push_back({in_space(nodes_.front().x, 0), in_space(end, 0)});
+  for (double x = 0.5 * peg_distance; x < end; x += peg_distance) to.spheres.push_back({in_space(x, 0), peg_radius});
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Node& node = nodes_[i];
+    const Surface at = nearest_surface(node.x, node.y);
+    to.actions.push_back({in_space(node.x, node.y), in_space(at.normal_x, at.normal_y)});
+    if (i + 1 == nodes_.size()) break;
+    const double dx = nodes_[i + 1].x - node.x, dy = nodes_[i + 1].y - node.y;
+    const double distance = std::sqrt(dx * dx + dy * dy);
+    to.actions.push_back({in_space(node.x + dx / 2, node.y + dy / 2), in_space(dx / distance, dy / distance)});
+  }
+}
+
 Problem rope(int links, unsigned seed) { return Scene::problem_of_step(Rope(links, seed)); }
 
 }  // namespace scenes

@@ -12,6 +12,7 @@ namespace scenes {
 class Rope : public Scene {
  public:
   explicit Rope(std::int32_t links, unsigned seed = 1);
+  void draw(Drawing& to) const override;
 
  protected:
   void add_rows(RowList& rows) const override;

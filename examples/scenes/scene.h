@@ -2,6 +2,7 @@
 #include <span>
 #include <vector>
 
+#include "drawing.h"
 #include "handles.h"
 #include "row_list.h"
 
@@ -27,6 +28,9 @@ class Scene {
   const mlcp_solver* solver() const { return solver_.get(); }
   std::span<const double> velocities() const { return velocity_; }
   void use(const mlcp_settings& settings);
+
+  /// Adds what there is to see at the present positions, and for each row that prepare() would make now where it acts.
+  virtual void draw(Drawing& to) const = 0;
 
   /// The problem of the step from here; the scene is spent.
   static Problem problem_of_step(Scene&& scene, double h = default_step);

@@ -420,3 +420,26 @@ TEST(SolverMemory, TrimKeepsTheResults) {
   ASSERT_EQ(mlcp_solve(solver.get(), problem.get(), nullptr, nullptr, nullptr), MLCP_OK);
   EXPECT_EQ(velocities(solver.get()), v);
 }
+
+TEST_F(SolverApi, FactorHasThePatternOfEveryEnabledRow) {
+  mlcp_factor_view factor;
+  mlcp_factor_view_init(&factor, sizeof factor);
+  EXPECT_EQ(mlcp_solver_factor(s, &factor), MLCP_ERROR_STATE);
+  EXPECT_EQ(mlcp_solver_factor(s, nullptr), MLCP_ERROR_NULL);
+  ASSERT_EQ(mlcp_solve(s, p, nullptr, nullptr, &report), MLCP_OK);
+  ASSERT_EQ(mlcp_solver_factor(s, &factor), MLCP_OK);
+  // two islands, a velocity and its row each: one entry below the diagonal, then a root
+  ASSERT_EQ(factor.size, 4);
+  EXPECT_EQ(factor.entries, report.factor_entries);
+  const std::vector<int32_t> nodes(factor.nodes, factor.nodes + factor.size), rows(factor.rows, factor.rows + factor.entries);
+  const std::vector<int64_t> pointers(factor.pointers, factor.pointers + factor.size + 1);
+  EXPECT_EQ(pointers, (std::vector<int64_t>{0, 1, 1, 2, 2}));
+  EXPECT_EQ(rows, (std::vector<int32_t>{1, 3}));
+  EXPECT_EQ(nodes[1], nodes[0] + 2);
+  EXPECT_EQ(nodes[3], nodes[2] + 2);
+  factor.struct_size = 0;
+  EXPECT_EQ(mlcp_solver_factor(s, &factor), MLCP_ERROR_ARGUMENT);
+  ASSERT_EQ(mlcp_solver_trim(s), MLCP_OK);
+  mlcp_factor_view_init(&factor, sizeof factor);
+  EXPECT_EQ(mlcp_solver_factor(s, &factor), MLCP_ERROR_STATE);
+}

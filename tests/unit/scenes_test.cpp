@@ -185,6 +185,41 @@ TEST(Scenes, a_tower_stands) {
   EXPECT_NEAR(scene.boxes().back().rotation.w, 1, 1e-9);
 }
 
+TEST(Scenes, draw_says_where_every_row_acts) {
+  for (const Exhibit& exhibit : gallery()) {
+    SCOPED_TRACE(exhibit.name);
+    const auto made = make_scene(exhibit.name, 5);
+    Scene& scene = *made;
+    scene.prepare(default_step);
+    Drawing drawing;
+    scene.draw(drawing);
+    EXPECT_EQ(drawing.actions.size(), static_cast<std::size_t>(mlcp_problem_row_count(scene.problem())));
+    EXPECT_FALSE(drawing.spheres.empty() && drawing.boxes.empty() && drawing.paths.empty());
+    // the direction is that of the row: J of body b begins with it, in the plane without its y
+    mlcp_matrix_view j;
+    mlcp_matrix_view_init(&j, sizeof j);
+    check(mlcp_problem_jacobian(scene.problem(), &j));
+    std::int32_t dimension = 0;
+    check(mlcp_problem_body_range(scene.problem(), 0, nullptr, &dimension));
+    const bool plane = drawing.spheres.empty() ? drawing.boxes.empty() : dimension == 2;
+    for (std::int32_t i = 0; i < j.rows; ++i) {
+      const auto& [point, d] = drawing.actions[static_cast<std::size_t>(i)];
+      const double* b = j.values + j.pointers[i + 1] - dimension;
+      EXPECT_NEAR(b[0], d[0], 1e-12);
+      EXPECT_NEAR(b[1], d[plane ? 2 : 1], 1e-12);
+      if (!plane) {
+        EXPECT_NEAR(b[2], d[2], 1e-12);
+      }
+      EXPECT_NEAR(length(d), 1, 1e-12);
+    }
+  }
+}
+
+TEST(Scenes, the_gallery_refuses_what_it_does_not_have) {
+  EXPECT_THROW(make_scene("gripper on the moon", 1), std::invalid_argument);
+  EXPECT_THROW(make_scene("pile", 0), std::invalid_argument);
+}
+
 TEST(Scenes, a_recorded_step_replays_to_the_same_bits) {
   const auto folder = std::filesystem::temp_directory_path() / "mlcp_scenes_test";
   Rope recorded(30);

@@ -1,0 +1,41 @@
+"""What the extension uses of the C++ scenes of examples/scenes."""
+from libcpp.memory cimport unique_ptr
+from libcpp.vector cimport vector
+
+from mlcp._abi cimport mlcp_mask, mlcp_problem, mlcp_report, mlcp_settings, mlcp_solver
+
+cdef extern from "scenes/scenes.h" namespace "scenes" nogil:
+    cdef cppclass Point "scenes::Point":
+        double &operator[](size_t)
+    cdef cppclass Sphere "scenes::Drawing::Sphere":
+        Point centre
+        double radius
+    cdef cppclass Action "scenes::Drawing::Action":
+        Point point
+        Point direction
+    cdef cppclass Corners "scenes::Drawing::Corners":
+        Point &operator[](size_t)
+    cdef cppclass Drawing:
+        vector[Sphere] spheres
+        vector[Corners] boxes
+        vector[vector[Point]] paths
+        vector[Action] actions
+
+    cdef cppclass CppScene "scenes::Scene":
+        void prepare(double) except +
+        const mlcp_report &finish() except +
+        const mlcp_problem *problem()
+        const mlcp_mask *start()
+        const mlcp_solver *solver()
+        void use(const mlcp_settings &) except +
+        void draw(Drawing &) except +
+
+    cdef cppclass Exhibit "scenes::Exhibit":
+        const char *name
+        const char *unit
+        int default_size
+    cdef cppclass Gallery "std::span<const scenes::Exhibit>":
+        size_t size()
+        const Exhibit &operator[](size_t)
+    Gallery gallery()
+    unique_ptr[CppScene] make_scene(const char *, int, unsigned) except +

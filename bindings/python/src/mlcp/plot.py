@@ -1,0 +1,231 @@
+"""Pictures of what the solver did; needs Matplotlib, ``pip install mlcp[plot]``.
+
+Every function draws into the axes that it is given or makes new ones, returns them, and neither shows nor saves anything.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+import scipy.sparse
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection, PatchCollection
+from matplotlib.colors import BoundaryNorm, LinearSegmentedColormap, ListedColormap
+from matplotlib.patches import Circle, Polygon
+from numpy.typing import NDArray
+from scipy.spatial import ConvexHull
+
+from ._core import Mask, Problem, Result, Solver
+from .errors import ArgumentError
+from .records import Drawing, Factor, RowState
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._core import Method, SolverSettings
+
+__all__ = ["active_set", "contact_forces", "scene", "sparsity", "work_precision"]
+
+_STATE_COLORS = {RowState.DISABLED: "0.75", RowState.AT_LOWER: "white", RowState.ACTIVE: "tab:blue", RowState.AT_UPPER: "tab:orange"}
+_FORCE_COLORS = LinearSegmentedColormap.from_list("force", ["#e0a030", "#c0392b", "#4a0d14"])
+
+
+def sparsity(problem: Problem, *, enabled: Mask | None = None, axes: Sequence[Axes] | None = None) -> Sequence[Axes]:
+    """Draw the patterns of K = [M Jᵀ; J −Σ] and of its factor L in elimination order, an island a color.
+
+    Parameters
+    ----------
+    problem : Problem
+        Is analyzed, not solved.
+    enabled : Mask, optional
+        As in `Solver.solve`.
+    axes : two Axes, optional
+        For K and for L.
+    """
+    solver = Solver()
+    solver.analyze(problem, enabled=enabled)
+    factor = solver.factor()
+    if axes is None:
+        axes = plt.subplots(1, 2, figsize=(10, 5), layout="constrained")[1]
+    size = len(factor.nodes)
+    column = np.repeat(np.arange(size), np.diff(factor.pointers))
+    k_row, k_column = _pattern_of_k(problem, factor)
+    below = k_row > k_column
+    _spots(axes[0], factor, k_row, k_column, f"K: {size} unknowns, {np.count_nonzero(below)} entries below the diagonal")
+    diagonal = np.arange(size)
+    _spots(axes[1], factor, np.concatenate([diagonal, factor.rows]), np.concatenate([diagonal, column]),
+           f"L: {len(factor.rows)} entries below the diagonal")
+    return axes
+
+
+def _pattern_of_k(problem: Problem, factor: Factor) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Entries of K between nodes that are in the factor, both triangles, as positions."""
+    position = np.full(problem.velocities + problem.rows, -1)
+    position[factor.nodes] = np.arange(len(factor.nodes))
+    jacobian = problem.jacobian()
+    k = scipy.sparse.block_array([[problem.mass(), jacobian.T], [jacobian, problem.compliance_matrix()]], format="coo")
+    row, column = position[k.row], position[k.col]
+    inside = (row >= 0) & (column >= 0)
+    return row[inside], column[inside]
+
+
+def _spots(axes: Axes, factor: Factor, row: NDArray[np.int64], column: NDArray[np.int64], title: str) -> None:
+    size = len(factor.nodes)
+    ends = np.flatnonzero(np.diff(factor.pointers) == 0)  # an island ends with the root of its tree
+    island = np.searchsorted(ends, column)
+    colors = plt.get_cmap("tab10")(island % 10)
+    box = axes.get_window_extent()
+    points_per_entry = 72 / axes.figure.dpi * min(box.width, box.height) / max(size, 1)
+    axes.scatter(column, row, s=max(points_per_entry, 0.4) ** 2, c=colors, marker="s", linewidths=0)
+    axes.set(title=title, xlim=(-0.5, size - 0.5), ylim=(size - 0.5, -0.5), aspect="equal", xlabel="1 island" if len(ends) == 1 else f"{len(ends)} islands")
+
+
+def active_set(result: Result, start: Mask | None = None, *, axes: Axes | None = None) -> Axes:
+    """Draw the state of every row over the pivots of a solve.
+
+    Parameters
+    ----------
+    result : Result
+        Of a solver with ``trace=True``.
+    start : Mask, optional
+        The mask the solve started from; None: every row at its lower bound, or active where it ends active without a pivot.
+    axes : Axes, optional
+    """
+    trace, end = result.trace, np.array(result.mask.states)
+    if not len(trace) and result.counts.pivots:
+        raise ArgumentError("result has no trace: it is not from a solver with trace=True")
+    moved = trace[trace["blocking"] >= 0]
+    states = np.empty((len(end), len(moved) + 1), np.uint8)
+    states[:] = (end if start is None else np.array(start.states))[:, np.newaxis]
+    if start is None:
+        states[moved["blocking"]] = RowState.AT_LOWER
+    states[end == RowState.DISABLED] = RowState.DISABLED
+    for step, (row, to) in enumerate(zip(moved["blocking"], moved["to"]), start=1):
+        states[row, step:] = to
+    if axes is None:
+        axes = plt.subplots(figsize=(7, 5), layout="constrained")[1]
+    colors = ListedColormap(list(_STATE_COLORS.values()))
+    image = axes.imshow(states, cmap=colors, norm=BoundaryNorm(np.arange(-0.5, 4), 4), aspect="auto", interpolation="nearest",
+                        extent=(-0.5, len(moved) + 0.5, len(end) - 0.5, -0.5))
+    bar = axes.figure.colorbar(image, ax=axes, ticks=list(_STATE_COLORS))
+    bar.ax.set_yticklabels([state.name.lower().replace("_", " ") for state in _STATE_COLORS])
+    axes.set(xlabel="pivot", ylabel="row", title=f"{result.counts.active_rows} of {len(end)} rows active after {len(moved)} pivots")
+    return axes
+
+
+def work_precision(problem: Problem, methods: Iterable[Method] = ("simplex",), *, points: int = 12, repeats: int = 3,
+                   axes: Axes | None = None, **settings: Unpack[SolverSettings]) -> Axes:
+    """Draw the error that each method reaches against the time it takes.
+
+    Every point is a solve of its own, stopped by ``max_iterations``; analysis is left out, since the pattern is known from the
+    first solve on. The last point of a curve is the solve that ended by itself.
+
+    Parameters
+    ----------
+    problem : Problem
+    methods : iterable of str
+        As in `Solver`.
+    points : int
+        Limits on the iterations, spaced evenly by their logarithm.
+    repeats : int
+        Each time is the median of so many.
+    axes : Axes, optional
+    **settings
+        Other keywords of `Solver`.
+    """
+    if axes is None:
+        axes = plt.subplots(figsize=(6, 4.5), layout="constrained")[1]
+    for method in methods:
+        solver = Solver(**settings)
+        solver.configure(method=method)
+        whole = solver.solve(problem)
+        limits = np.unique(np.geomspace(1, max(whole.counts.pivots, 1), points).astype(int))
+        curve = [_time_and_error(solver, problem, int(limit), repeats) for limit in (*limits, settings.get("max_iterations", 0))]
+        seconds, error = np.array(curve).T
+        axes.loglog(1e3 * seconds, np.maximum(error, np.finfo(float).eps / 4), marker="o", markersize=4, label=method)
+    axes.set(xlabel="time, ms", ylabel="largest relative error", title=f"{problem.velocities} velocities, {problem.rows} rows")
+    axes.grid(alpha=0.3)
+    axes.legend()
+    return axes
+
+
+def _time_and_error(solver: Solver, problem: Problem, limit: int, repeats: int) -> tuple[float, float]:
+    solver.configure(max_iterations=limit)
+    results = [solver.solve(problem) for _ in range(repeats)]
+    return float(np.median([result.times.total - result.times.analyze for result in results])), results[-1].errors.largest
+
+
+def scene(drawing: Drawing, *, axes: Axes | None = None) -> Axes:
+    """Draw a scene from the front: x to the right, z up, what is nearer (smaller y) over what is farther.
+
+    Parameters
+    ----------
+    drawing : Drawing
+        Of `Scene.draw`.
+    axes : Axes, optional
+    """
+    if axes is None:
+        axes = _axes_for(drawing)
+    shapes: list[tuple[float, Any]] = []
+    for x, y, z, radius in drawing.spheres:
+        shapes.append((y, Circle((x, z), radius)))
+    for corners in drawing.boxes:
+        front = corners[:, [0, 2]]
+        shapes.append((corners[:, 1].mean(), Polygon(front[ConvexHull(front).vertices])))
+    shapes.sort(key=lambda shape: -shape[0])
+    axes.add_collection(PatchCollection([patch for _, patch in shapes], facecolor="#dfe7ef", edgecolor="#8896a5", linewidth=0.6))
+    axes.add_collection(LineCollection([path[:, [0, 2]] for path in drawing.paths], colors="0.25", linewidths=1.2))
+    axes.set(aspect="equal", xlabel="x, m", ylabel="z, m")
+    axes.autoscale_view()
+    return axes
+
+
+def _axes_for(drawing: Drawing) -> Axes:
+    """New axes about as high and wide as the scene."""
+    seen = np.concatenate([drawing.spheres[:, :3], drawing.boxes.reshape(-1, 3), *drawing.paths, drawing.points])
+    width, height = np.ptp(seen[:, [0, 2]], axis=0) if len(seen) else (1.0, 1.0)
+    largest = max(width, height, np.finfo(float).tiny)
+    size = np.clip(7 * np.array([width, height]) / largest, 2.5, 7)
+    return plt.subplots(figsize=(size[0] + 1.2, size[1] + 0.6), layout="constrained")[1]
+
+
+def contact_forces(drawing: Drawing, forces: NDArray[np.float64], *, scale: float | None = None, bar: bool = True,
+                   axes: Axes | None = None) -> Axes:
+    """Draw the force of every row over a scene, seen from the front: a line along it, as long and as thick as it is strong.
+
+    Parameters
+    ----------
+    drawing : Drawing
+        At the positions of the beginning of the step.
+    forces : (m,) array
+        N, ``result.gamma / h``.
+    scale : float, optional
+        Length of 1 N, m; None: the largest force is an eighth as long as the picture.
+    bar : bool
+        Whether to draw the scale of the colors.
+    axes : Axes, optional
+    """
+    axes = scene(drawing, axes=axes)
+    forces = np.asarray(forces, dtype=np.float64)
+    if forces.shape != (len(drawing.points),):
+        raise ArgumentError(f"forces has shape {forces.shape}, not ({len(drawing.points)},), one for each row that was drawn")
+    strongest = float(np.max(np.abs(forces), initial=0.0))
+    if strongest == 0:
+        return axes
+    if scale is None:
+        scale = 0.125 * max(axes.dataLim.width, axes.dataLim.height) / strongest
+    acts = np.abs(forces) > 1e-6 * strongest
+    middle = drawing.points[acts][:, [0, 2]]
+    half = 0.5 * scale * forces[acts, np.newaxis] * drawing.directions[acts][:, [0, 2]]
+    strength = np.abs(forces[acts]) / strongest
+    lines = LineCollection(list(np.stack([middle - half, middle + half], axis=1)), linewidths=0.5 + 2.5 * strength, cmap=_FORCE_COLORS,
+                           capstyle="round")
+    lines.set_array(np.abs(forces[acts]))
+    lines.set_clim(0, strongest)
+    axes.add_collection(lines)
+    if bar:
+        axes.figure.colorbar(lines, ax=axes, label="force, N")
+    return axes

@@ -1,0 +1,259 @@
+"""mlcp_solver."""
+
+cdef class Solver:
+    """Settings, ordering, factor and history. Reuse one over the steps of a simulation: it analyzes only when the pattern changes.
+
+    Parameters
+    ----------
+    method : str
+        "auto" or "simplex" (the paper's method: exact, finite).
+    pivot_rule : {"dual", "printed"}
+        Which rows block: impulses alone, or as the paper's pseudocode prints it.
+    refactorize : {"when_needed", "always"}
+        Row toggles, or afresh at every pivot, to compare.
+    trace : bool
+        Record every pivot in `Result.trace`.
+    tolerance : float
+        On the largest relative error of the report, > 0; 1e-9.
+    max_iterations : int
+        Pivots an island; 0: 50 (rows + 10).
+    max_work : int
+        Entries touched, the same on every machine; 0: no limit.
+    max_seconds : float
+        0: no limit.
+    progress : callable, optional
+        Called on the solving thread with a `Progress` at the beginning and then about every 20 ms; a true value stops the solve
+        with status "interrupted", an exception stops it and is raised.
+
+    Raises
+    ------
+    ArgumentError, TypeError
+        Naming the setting.
+
+    Notes
+    -----
+    The GIL is released during a solve; one solver serves one thread at a time, else `StateError`. Ctrl-C stops a solve on the main
+    thread: KeyboardInterrupt is raised, and `result` holds the last iterate. Pickling and `copy.deepcopy` keep the settings without
+    `progress`; a snapshot (`mlcp.dumps`) also keeps the ordering.
+    """
+    cdef mlcp_solver *handle
+    cdef Watch watch_state
+    cdef atomic[int] stop
+    cdef bint busy
+    cdef mlcp_report report
+    cdef object error  # what the callback or a signal handler raised
+    cdef object __weakref__
+    cdef readonly Result result  # of the last solve, None before the first one
+    cdef object progress_
+
+    def __cinit__(self, *, progress=None, **settings):
+        cdef mlcp_settings fields
+        mlcp_settings_init(&fields, sizeof(mlcp_settings))
+        write_settings(&fields, settings)
+        cdef mlcp_status status = mlcp_solver_create(&fields, NULL, &self.handle)
+        if status != MLCP_OK:
+            self.refuse(&fields)
+            check(status)
+        mlcp_report_init(&self.report, sizeof(mlcp_report))
+        self.progress = progress
+
+    cdef int refuse(self, const mlcp_settings *fields) except -1:
+        """mlcp_solver_create leaves no text, a solver that refuses the same settings does."""
+        cdef mlcp_solver *plain = NULL
+        check(mlcp_solver_create(NULL, NULL, &plain))
+        try:
+            check(mlcp_solver_set_settings(plain, fields), mlcp_solver_error(plain))
+        finally:
+            mlcp_solver_destroy(plain)
+        return 0
+
+    def __dealloc__(self):
+        mlcp_solver_destroy(self.handle)
+
+    cdef int done(self, mlcp_status status) except -1:
+        return check(status, mlcp_solver_error(self.handle))
+
+    cdef int idle(self) except -1:
+        if self.busy:
+            raise errors.StateError("this Solver is running in another thread, or calls itself from its progress callback")
+        return 0
+
+    @property
+    def settings(self):
+        """All settings but `progress`, by name."""
+        cdef mlcp_settings fields
+        mlcp_settings_init(&fields, sizeof(mlcp_settings))
+        check(mlcp_solver_get_settings(self.handle, &fields))
+        return read_settings(&fields)
+
+    def configure(self, **settings):
+        """Changes settings by name; the analysis and the results stay."""
+        self.idle()
+        if "progress" in settings:
+            self.progress = settings.pop("progress")
+        self.write(settings)
+
+    cdef int write(self, dict settings) except -1:
+        """Present settings with these over them, and `watch` in place."""
+        cdef mlcp_settings fields
+        mlcp_settings_init(&fields, sizeof(mlcp_settings))
+        check(mlcp_solver_get_settings(self.handle, &fields))
+        write_settings(&fields, settings)
+        fields.progress = watch
+        fields.progress_context = &self.watch_state
+        return self.done(mlcp_solver_set_settings(self.handle, &fields))
+
+    @property
+    def progress(self):
+        """The callback, or None."""
+        return self.progress_
+
+    @progress.setter
+    def progress(self, callback):
+        if callback is not None and not callable(callback):
+            raise errors.ArgumentError(f"progress = {callback!r} cannot be called")
+        self.idle()
+        self.progress_ = callback
+        self.write({})
+
+    # ------------------------------------------------------------------------------------------------------- solving
+
+    cdef int32_t look(self, const mlcp_progress *now) noexcept:
+        """Signals and the caller's callback, with the GIL. Exceptions wait until the solve has ended."""
+        try:
+            PyErr_CheckSignals()
+            if self.progress_ is None:
+                return 0
+            return bool(self.progress_(records.Progress(now.seconds, now.pivots, now.work, now.island, now.islands, now.violation)))
+        except BaseException as error:
+            self.error = error
+            return 1
+
+    cdef int run(self, Problem problem, const mlcp_mask *enabled, const mlcp_mask *start, bint only_analyze) except -1:
+        """before: masks are held by the caller.        after: self.report, self.error."""
+        self.idle()
+        cdef Watch *state = &self.watch_state
+        cdef mlcp_status status
+        state.stop = &self.stop
+        state.solver = <void *>self
+        state.holds_gil = self.progress_ is not None or threading.get_ident() == threading.main_thread().ident
+        state.next_look = 0 if self.progress_ is not None else seconds_between_looks
+        self.error = None
+        self.busy = True
+        problem.in_use += 1
+        with nogil:
+            if only_analyze:
+                status = mlcp_analyze(self.handle, problem.handle, enabled)
+            else:
+                status = mlcp_solve(self.handle, problem.handle, enabled, start, &self.report)
+        problem.in_use -= 1
+        self.busy = False
+        self.stop.store(0)
+        return self.done(status)
+
+    cdef int run_with(self, Problem problem, Mask enabled, Mask start, bint only_analyze) except -1:
+        try:
+            if enabled is not None:
+                enabled.in_use += 1
+            if start is not None:
+                start.in_use += 1
+            return self.run(problem, handle_of(enabled), handle_of(start), only_analyze)
+        finally:
+            if enabled is not None:
+                enabled.in_use -= 1
+            if start is not None:
+                start.in_use -= 1
+
+    cdef int raise_pending(self) except -1:
+        error, self.error = self.error, None
+        if error is not None:
+            raise error
+        return 0
+
+    def analyze(self, Problem problem not None, *, Mask enabled=None):
+        """Orders and analyzes the pattern of the enabled rows (None: all), so that a solve need not."""
+        self.run_with(problem, enabled, None, True)
+
+    def solve(self, Problem problem not None, Mask start=None, *, Mask enabled=None):
+        """Solves.
+
+        Parameters
+        ----------
+        problem : Problem
+        start : Mask, optional
+            The active set to start from, e.g. ``Mask.carry(problem, result.mask)`` of the last step; any will do. None: bilateral
+            rows only.
+        enabled : Mask, optional
+            Rows in state DISABLED are left out. None: all rows count.
+
+        Returns
+        -------
+        Result
+            Also when it is not solved: see `Result.status`.
+
+        Raises
+        ------
+        RangeError
+            A mask of another length than m.
+        StateError
+            The solver is running in another thread.
+        KeyboardInterrupt
+            Ctrl-C; `Solver.result` then holds the last iterate.
+        """
+        self.run_with(problem, enabled, start, False)
+        self.result = Result.of(self.handle, &self.report)
+        self.raise_pending()
+        return self.result
+
+    def interrupt(self):
+        """Stops the solve that is running, or else the next one, with status "interrupted". From any thread."""
+        self.stop.store(1)
+
+    def bind(self, Problem problem not None, *, momentum=None, r=None, lo=None, hi=None, v=None, gamma=None, w=None):
+        """Ties arrays to a problem, for many solves with little overhead; see `BoundProblem`."""
+        return BoundProblem(self, problem, momentum, r, lo, hi, v, gamma, w)
+
+    def reaction(self, Problem problem not None, int32_t body):
+        """The impulse that a prescribed body needs to keep its velocity, M v − k − Jᵀ γ on its velocities, (d,)."""
+        self.idle()
+        span = problem.body_slice(body)
+        cdef cnp.ndarray impulse = np.empty(span.stop - span.start)
+        cdef mlcp_status status = mlcp_solver_reaction(self.handle, problem.handle, body, impulse.shape[0], f64(impulse))
+        check(status, b"there are no results before a solve, or they are of another problem" if status == MLCP_ERROR_STATE else b"")
+        return impulse
+
+    def factor(self):
+        """Pattern of L of the last analysis, as a `Factor`."""
+        self.idle()
+        cdef mlcp_factor_view view
+        mlcp_factor_view_init(&view, sizeof(mlcp_factor_view))
+        check(mlcp_solver_factor(self.handle, &view), b"nothing has been analyzed")
+        return records.Factor(copied(view.nodes, view.size, cnp.NPY_INT32), copied(view.pointers, view.size + 1, cnp.NPY_INT64),
+                              copied(view.rows, view.entries, cnp.NPY_INT32))
+
+    def trim(self):
+        """Gives memory back; the ordering is kept, so that the next solve gives the same bits."""
+        self.idle()
+        self.done(mlcp_solver_trim(self.handle))
+
+    def __copy__(self):
+        return type(self)(progress=self.progress_, **self.settings)
+
+    def __deepcopy__(self, memo):
+        return type(self)(**self.settings)
+
+    def __reduce__(self):
+        return _solver_of_settings, (type(self), self.settings)
+
+    def __repr__(self):
+        return f"<mlcp.Solver: {', '.join(f'{name} = {value!r}' for name, value in self.settings.items())}>"
+
+
+cdef inline const mlcp_solver *solver_handle(Solver solver) noexcept:
+    if solver is None:
+        return NULL
+    return solver.handle
+
+
+def _solver_of_settings(cls, settings):
+    return cls(**settings)

@@ -1,0 +1,38 @@
+#include "gallery.h"
+
+#include <stdexcept>
+#include <string>
+
+#include "chain.h"
+#include "pile.h"
+#include "rope.h"
+#include "tower.h"
+#include "wall.h"
+
+namespace scenes {
+namespace {
+
+using Made = std::unique_ptr<Scene>;
+
+constexpr Exhibit exhibits[] = {
+    {"pile", "spheres", 100, [](std::int32_t size, unsigned seed) -> Made { return std::make_unique<Pile>(size, seed); }},
+    {"chain", "links", 30, [](std::int32_t size, unsigned seed) -> Made { return std::make_unique<Chain>(size, true, 1.0, seed); }},
+    {"rope", "links", 60, [](std::int32_t size, unsigned seed) -> Made { return std::make_unique<Rope>(size, seed); }},
+    {"tower", "boxes", 10, [](std::int32_t size, unsigned) -> Made { return Made(new BoxStack(tower_scene(size))); }},
+    {"wall", "bricks a course, and courses", 8,
+     [](std::int32_t size, unsigned) -> Made { return Made(new BoxStack(wall_scene(size, size))); }},
+};
+
+}  // namespace
+
+std::span<const Exhibit> gallery() { return exhibits; }
+
+std::unique_ptr<Scene> make_scene(std::string_view name, std::int32_t size, unsigned seed) {
+  if (size < 1) throw std::invalid_argument("size = " + std::to_string(size) + " is not positive");
+  for (const Exhibit& exhibit : exhibits) {
+    if (name == exhibit.name) return exhibit.make(size, seed);
+  }
+  throw std::invalid_argument("there is no scene \"" + std::string(name) + "\"");
+}
+
+}  // namespace scenes

@@ -1,0 +1,24 @@
+#pragma once
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "scene.h"
+
+namespace scenes {
+
+/// A scene that can be asked for by name.
+struct Exhibit {
+  const char* name;
+  const char* unit;           // what its size counts
+  std::int32_t default_size;  // small enough to be stepped while somebody watches
+  std::unique_ptr<Scene> (*make)(std::int32_t size, unsigned seed);
+};
+
+/// All of them; a new scene gets a line in gallery.cpp.
+std::span<const Exhibit> gallery();
+
+/// fails: std::invalid_argument for a name that is not there, or size < 1.
+std::unique_ptr<Scene> make_scene(std::string_view name, std::int32_t size, unsigned seed = 1);
+
+}  // namespace scenes

@@ -1,0 +1,84 @@
+"""Ctrl-C ends a long solve at once and leaves what it has."""
+
+import signal
+import subprocess
+import sys
+import textwrap
+from pathlib import Path
+
+import pytest
+
+begin = """
+    import os, signal, sys, threading, time
+    import numpy as np
+    import mlcp
+    from conftest import pile
+
+    problem = pile(6000)
+    sent = []
+
+    def press(solver):  # Ctrl-C, as a terminal sends it, when the solve has run for a while
+        time.sleep(0.3)
+        sent.append(time.process_time())
+        os.kill(os.getpid(), signal.SIGINT)
+"""
+
+
+def run(script):
+    done = subprocess.run([sys.executable, "-c", textwrap.dedent(begin) + textwrap.dedent(script)], capture_output=True, text=True,
+                          cwd=Path(__file__).parent, timeout=60)
+    assert done.returncode == 0, done.stderr
+    return done.stdout.split()
+
+
+def test_ctrl_c_stops_a_solve_within_a_tenth_of_a_second_and_leaves_the_iterate():
+    delay, status, finite = run("""
+        solver = mlcp.Solver(method="simplex")
+        solver.analyze(problem)  # is not polled inside
+        threading.Thread(target=press, args=(solver,)).start()
+        try:
+            solver.solve(problem)
+        except KeyboardInterrupt:
+            ended = time.process_time()
+            print(ended - sent[0], solver.result.status, np.isfinite(solver.result.v).all())
+    """)
+    assert status == "interrupted" and finite == "True"
+    assert float(delay) < 0.1  # of processor time, so that a busy machine does not count
+
+
+def test_ctrl_c_stops_solve_many():
+    delay, = run("""
+        threading.Thread(target=press, args=(None,)).start()
+        try:
+            mlcp.solve_many([problem] * 4, method="simplex")
+        except KeyboardInterrupt:
+            print(time.process_time() - sent[0])
+    """)
+    assert float(delay) < 1.0  # of all threads; those that are still analyzing go on until that is done
+
+
+def test_a_handler_of_the_caller_decides():
+    status, calls = run("""
+        calls = []
+        signal.signal(signal.SIGINT, lambda number, frame: calls.append(number))
+        threading.Thread(target=press, args=(None,)).start()
+        result = mlcp.Solver(method="simplex", max_seconds=0.8).solve(problem)
+        print(result.status, len(calls))
+    """)
+    assert (status, calls) == ("time_limit", "1")
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="POSIX only")
+def test_other_signals_are_handled_during_a_solve():
+    text, = run("""
+        def ring(number, frame):
+            raise TimeoutError("rang")
+
+        signal.signal(signal.SIGALRM, ring)
+        signal.setitimer(signal.ITIMER_REAL, 0.3)
+        try:
+            mlcp.Solver(method="simplex").solve(problem)
+        except TimeoutError as error:
+            print(error)
+    """)
+    assert text == "rang"
