@@ -29,9 +29,11 @@ mlcp_status mlcp_mask_clone(const mlcp_allocator* allocator, const mlcp_mask* ma
     Mask rows(memory);
     rows.state.assign(from.mask.state.span());
     rows.key.assign(from.mask.key.span());
+    rows.slip.assign(from.mask.slip.span());
     mlcp_mask* handle = make_handle<mlcp_mask>(memory, memory);
     handle->mask.state.swap(rows.state);
     handle->mask.key.swap(rows.key);
+    handle->mask.slip.swap(rows.slip);
     *copy = handle;
   });
 }

@@ -21,11 +21,13 @@ std::int32_t size_of(const Mask& mask) { return static_cast<std::int32_t>(mask.s
 void mask_resize(Mask& mask, std::int32_t count, mlcp_row_state state) {
   check_count("count", count);
   check_state({"state"}, state);
-  const bool keyed = !mask.key.empty();
+  const bool keyed = !mask.key.empty(), slips = !mask.slip.empty();
   mask.state.reserve(count);
   if (keyed) mask.key.reserve(count);
+  if (slips) mask.slip.reserve(count);
   mask.state.resize(count, state);
   if (keyed) mask.key.resize(count, 0);
+  if (slips) mask.slip.resize(count, 0);
 }
 
 void mask_set(Mask& mask, std::int32_t first, std::int32_t count, const mlcp_row_state* states) {
@@ -33,6 +35,7 @@ void mask_set(Mask& mask, std::int32_t first, std::int32_t count, const mlcp_row
   check_array("states", states, count);
   for (std::int32_t i = 0; i < count; ++i) check_state({"states", i}, states[i]);
   std::copy_n(states, count, mask.state.data() + first);
+  if (!mask.slip.empty()) std::fill_n(mask.slip.data() + first, count, 0.0);
 }
 
 void mask_get(const Mask& mask, std::int32_t first, std::int32_t count, mlcp_row_state* states) {
@@ -59,12 +62,16 @@ void mask_carry(Mask& mask, const Problem& problem, const Mask& previous, mlcp_r
   check_state({"otherwise"}, otherwise);
   work.table.build(previous.key.span());
   work.state.resize(problem.m());
+  const bool slips = !previous.slip.empty();
+  work.slip.resize(slips ? problem.m() : 0);
   mask.key.reserve(problem.m());
   for (std::int32_t i = 0; i < problem.m(); ++i) {
     const std::int32_t row = work.table.take(problem.key[i]);
     work.state[i] = row < 0 ? otherwise : previous.state[row];
+    if (slips) work.slip[i] = row < 0 ? 0 : previous.slip[row];
   }
   mask.state.swap(work.state);
+  mask.slip.swap(work.slip);
   mask.key.assign(problem.key.span());
 }
 

@@ -7,13 +7,16 @@ namespace mlcp {
 
 struct Problem;
 
-/// One state a row and, if known, its key: `key` is empty or as long as `state`.
+/// One state a row and, if known, its key and how its contact slips: `key` and `slip` are empty or as long as `state`.
+/// slip, of contacts that a solve has found: on the normal row µ|w_T|, 0 when it does not slip; on the tangent rows w_T when it slips, else
+/// γ_T/(µ γ_n). On rows whose bounds follow another row: the impulse of that row.
 struct Mask {
   Memory memory;
   Array<mlcp_row_state> state;
   Array<std::uint64_t> key;
+  Array<double> slip;
 
-  explicit Mask(const Memory& m) : memory(m), state(m), key(m) {}
+  explicit Mask(const Memory& m) : memory(m), state(m), key(m), slip(m) {}
 };
 
 /// Makes the mask `count` rows long; new rows get `state`, no key.
@@ -30,7 +33,8 @@ void mask_take_keys(Mask& mask, const Problem& problem);
 struct CarryWorkspace {
   KeyTable table;
   Array<mlcp_row_state> state;
-  explicit CarryWorkspace(const Memory& memory) : table(memory), state(memory) {}
+  Array<double> slip;
+  explicit CarryWorkspace(const Memory& memory) : table(memory), state(memory), slip(memory) {}
 };
 
 /// States and keys for the rows of `problem`: the state that the row with the same key had in `previous`, else `otherwise`.
