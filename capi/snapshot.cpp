@@ -31,6 +31,7 @@ mlcp_mask* make_mask(const Memory& memory, Mask& from) {
   mlcp_mask* handle = make_handle<mlcp_mask>(memory, memory);
   handle->mask.state.swap(from.state);
   handle->mask.key.swap(from.key);
+  handle->mask.slip.swap(from.slip);
   return handle;
 }
 

@@ -11,12 +11,12 @@ namespace mlcp {
 namespace {
 
 constexpr std::size_t header_size = 40, crc_at = 36;
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2, oldest_version = 1;
 constexpr std::uint8_t magic[8] = {'M', 'L', 'C', 'P', 'S', 'N', 'A', 'P'};
 
 struct Header {
   std::uint64_t size, packed;
-  std::uint32_t crc;
+  std::uint32_t crc, version;
 };
 
 void write_header(const Header& header, Array<std::uint8_t>& out) {
@@ -36,9 +36,10 @@ Header read_header(std::span<const std::uint8_t> bytes) {
   ByteReader from(bytes.subspan(sizeof magic));
   const std::uint32_t found = from.u32();
   from.u32();
-  const Header header{from.u64(), from.u64(), from.u32()};
+  const Header header{from.u64(), from.u64(), from.u32(), found};
   if (from.u32() != checksum(bytes.first(crc_at))) throw Error(MLCP_ERROR_FORMAT, "the snapshot is damaged: its header");
-  if (found != version) throw Error(MLCP_ERROR_FORMAT, "the snapshot has version %u, this library reads %u", found, version);
+  if (found < oldest_version || found > version)
+    throw Error(MLCP_ERROR_FORMAT, "the snapshot has version %u, this library reads %u to %u", found, oldest_version, version);
   return header;
 }
 
@@ -52,7 +53,7 @@ void unpack(const Memory& memory, const Header& header, std::span<const std::uin
   if (checksum(packed) != header.crc) throw Error(MLCP_ERROR_FORMAT, "the snapshot is damaged: its checksum");
   Array<std::uint8_t> payload(memory);
   inflate_bytes(memory, packed, header.size, payload);
-  read_payload(memory, payload.span(), out);
+  read_payload(memory, payload.span(), header.version, out);
 }
 
 void load(const Memory& memory, InputFile& file, Snapshot& out) {
@@ -85,7 +86,7 @@ void snapshot_write(const SnapshotSource& source, Array<std::uint8_t>& out) {
   deflate_bytes(memory, payload.span(), packed);
   out.clear();
   out.reserve(header_size + packed.size());
-  write_header({payload.size(), packed.size(), checksum(packed.span())}, out);
+  write_header({payload.size(), packed.size(), checksum(packed.span()), version}, out);
   out.resize(header_size + packed.size());
   std::copy(packed.begin(), packed.end(), out.begin() + header_size);
 }

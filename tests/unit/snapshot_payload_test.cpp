@@ -20,7 +20,7 @@ namespace {
 bool accepted(std::span<const std::uint8_t> payload) {
   Snapshot snapshot{Memory()};
   try {
-    read_payload(Memory(), payload, snapshot);
+    read_payload(Memory(), payload, 2, snapshot);
     return true;
   } catch (const Error&) {
     return false;
@@ -31,7 +31,7 @@ bool accepted(std::span<const std::uint8_t> payload) {
 std::string refusal(std::span<const std::uint8_t> payload) {
   Snapshot snapshot{Memory()};
   try {
-    read_payload(Memory(), payload, snapshot);
+    read_payload(Memory(), payload, 2, snapshot);
   } catch (const Error& e) {
     EXPECT_EQ(e.status, MLCP_ERROR_FORMAT);
     return e.text;
@@ -75,7 +75,7 @@ struct SnapshotPayload : testing::Test {
 
 TEST_F(SnapshotPayload, RoundTrip) {
   Snapshot snapshot(memory);
-  read_payload(memory, payload.span(), snapshot);
+  read_payload(memory, payload.span(), 2, snapshot);
   Array<std::uint8_t> again(memory);
   write_payload({snapshot.problem, snapshot.settings, snapshot.ordering.span(), &snapshot.enabled, &snapshot.start}, again);
   ASSERT_EQ(again.size(), payload.size());
@@ -87,7 +87,7 @@ TEST_F(SnapshotPayload, RefusalsNameSectionAndOffset) {
   const std::string last = std::to_string(payload.size() - 4 * (std::size_t(problem.n()) + problem.m()));
   EXPECT_EQ(refusal(payload.span().first(payload.size() - 1)),
             "the snapshot is not legal: ordering, at byte " + last + " unpacked: the snapshot ends too early");
-  const std::size_t settings = 4 * 4 + 4 * 8, kind = settings + 4 + 4;
+  const std::size_t settings = 6 * 4 + 4 * 8, kind = settings + 4 + 4;
   payload[kind] = 9;
   EXPECT_EQ(refusal(payload.span()), "the snapshot is not legal: body 0, at byte " + std::to_string(kind + 2) +
                                          " unpacked: a mass is stored in way 9");
