@@ -82,7 +82,7 @@ struct ContactSolver::State {
   void solve_without(const Problem& problem, const Mask* mask, const Mask* start, mlcp_report& report);
   void solve_with(const Problem& problem, const Mask* mask, const Mask* start, mlcp_report& report);
   void settle_velocities(const Problem& problem);
-  bool limit(const mlcp_report& spent, double seconds);
+  mlcp_outcome spend(const mlcp_report& spent, double seconds);
   void keep(const Problem& problem, const Errors& found);
   void judge_islands(const Problem& problem);
   void take_rows(const Problem& problem);
@@ -175,11 +175,12 @@ void ContactSolver::State::solve_with(const Problem& problem, const Mask* mask, 
   slip.start(problem, start, generators, rows);
   mlcp_report total{}, one{};
   std::int32_t shifts = 0, by_lemke = 0;
+  mlcp_outcome stopped = MLCP_SOLVED;
   double seconds_measure = 0;
   errors = Errors{};
   const std::int32_t most = settings.max_shifts > 0 ? settings.max_shifts : default_shifts;
   while (true) {
-    if (!limit(total, since(begin))) break;
+    if ((stopped = spend(total, since(begin))) != MLCP_SOLVED) break;
     solver.solve(rows.inner, &rows.enabled, &rows.start, one);
     accumulate(one, total);
     const Result& inner = solver.result();
@@ -212,6 +213,7 @@ void ContactSolver::State::solve_with(const Problem& problem, const Mask* mask, 
   total.struct_size = report.struct_size;
   report = total;
   fill(problem, report);
+  if (report.outcome == MLCP_ITERATION_LIMIT && stopped != MLCP_SOLVED) report.outcome = stopped;
   report.seconds = since(begin);
   result.valid = true;
 }
@@ -229,16 +231,16 @@ void ContactSolver::State::settle_velocities(const Problem& problem) {
   }
 }
 
-/// What is left of time and work for the next solve. false: nothing.
-bool ContactSolver::State::limit(const mlcp_report& spent, double seconds) {
-  if (settings.max_seconds == 0 && settings.max_work == 0) return true;
+/// Leaves to the next solve what is left of time and work; the limit that has been reached when that is nothing.
+mlcp_outcome ContactSolver::State::spend(const mlcp_report& spent, double seconds) {
+  if (settings.max_seconds == 0 && settings.max_work == 0) return MLCP_SOLVED;
   Settings left = settings;
-  if (settings.max_seconds > 0) left.max_seconds = settings.max_seconds - seconds;
-  if (settings.max_work > 0) left.max_work = settings.max_work - spent.work;
-  if (spent.outcome != MLCP_SOLVED) return true;
-  if ((settings.max_seconds > 0 && !(left.max_seconds > 0)) || (settings.max_work > 0 && left.max_work <= 0)) return false;
+  if (settings.max_seconds > 0) left.max_seconds -= seconds;
+  if (settings.max_work > 0) left.max_work -= spent.work;
+  if (settings.max_seconds > 0 && !(left.max_seconds > 0)) return MLCP_TIME_LIMIT;
+  if (settings.max_work > 0 && left.max_work <= 0) return MLCP_WORK_LIMIT;
   solver.set_settings(left);
-  return true;
+  return MLCP_SOLVED;
 }
 
 /// The point just measured becomes the result.

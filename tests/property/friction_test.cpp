@@ -355,6 +355,20 @@ TEST(Friction, squeezed_contact_is_infeasible_with_a_certificate_in_the_callers_
   EXPECT_GT(gap, 0);
 }
 
+TEST(Friction, work_limit_counts_all_solves) {
+  Random random(17);
+  const mlcp::Problem p = random_contacts(random, 4, 4, 3, 0.4, MLCP_FRICTION_COULOMB);
+  mlcp::Settings settings = mlcp::default_settings();
+  mlcp::ContactSolver free(settings, mlcp::Memory());
+  const Solved all = solve_contacts(free, p);
+  settings.max_work = all.report.work / 2;
+  mlcp::ContactSolver limited(settings, mlcp::Memory());
+  const Solved half = solve_contacts(limited, p);
+  EXPECT_EQ(half.report.outcome, MLCP_WORK_LIMIT);
+  EXPECT_LT(half.report.shift_iterations, all.report.shift_iterations);
+  EXPECT_EQ(limited.settings().max_work, settings.max_work);
+}
+
 TEST(Friction, shift_limit_is_an_honest_outcome) {
   Random random(18);
   const mlcp::Problem p = random_contacts(random, 4, 4, 3, 0.9, MLCP_FRICTION_COULOMB);
