@@ -4,9 +4,9 @@
 
 #include "assemble/mask.h"
 #include "assemble/problem.h"
+#include "contact_solver.h"
 #include "memory/error.h"
 #include "memory/memory.h"
-#include "solver.h"
 
 /// Text of the last failed call on a handle.
 struct ErrorText {
@@ -32,7 +32,7 @@ struct mlcp_mask {
 };
 
 struct mlcp_solver {
-  mlcp::Solver solver;
+  mlcp::ContactSolver solver;
   mlcp_mask lent;  ///< what mlcp_solver_mask lends: the result's mask
   ErrorText error;
 

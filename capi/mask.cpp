@@ -30,6 +30,7 @@ mlcp_status mlcp_mask_clone(const mlcp_allocator* allocator, const mlcp_mask* ma
     rows.state.assign(from.mask.state.span());
     rows.key.assign(from.mask.key.span());
     rows.impulse.assign(from.mask.impulse.span());
+    rows.slip.assign(from.mask.slip.span());
     mlcp_mask* handle = make_handle<mlcp_mask>(memory, memory);
     handle->mask.swap(rows);
     *copy = handle;

@@ -278,6 +278,110 @@ MLCP_API mlcp_status mlcp_problem_rows_remove(mlcp_problem *problem, int32_t cou
 /* Removes all rows; bodies stay. O(1). */
 MLCP_API mlcp_status mlcp_problem_rows_clear(mlcp_problem *problem);
 
+/* Contacts. A contact is a normal row, unilateral, and right behind it its tangent rows: one in the plane, two in space. They are
+ * rows like all others (index, mask, key, impulse, slack); the contact adds a coefficient mu >= 0 and a model of friction:
+ *
+ *   NONE      the tangent rows are left out
+ *   CONVEX    the impulse g lies in the cone |g_T| <= mu g_n or in a pyramid inside it, the slack in the dual cone (Anitescu 2006): cheap and
+ *             convex, but a sliding contact opens by mu times its slip
+ *   COULOMB   the same with mu |w_T| added to the slack of the normal (de Saxce & Feng 1998): Coulomb's law, g_T against the slip w_T
+ *   BOX       fixed bounds: -bound <= g_T <= bound, each tangent row for itself
+ *   FINDEX    the bounds follow the normal impulse, -mu g_n <= g_T <= mu g_n, as with the findex of ODE, Bullet and DART
+ *
+ * facets: 0 takes settings.facets; else the cone is the pyramid of that many generators n + mu (t1 cos a + t2 sin a), a = 2 pi j / facets,
+ * which is at least 3 and of no effect in the plane, where the cone is a pyramid already. Facets are internal: a contact keeps its rows.
+ * A mask that disables the normal row leaves the contact out; one that disables a tangent row leaves its friction out. */
+typedef int32_t mlcp_friction;
+enum {
+  MLCP_FRICTION_NONE = 0,
+  MLCP_FRICTION_CONVEX = 1,
+  MLCP_FRICTION_COULOMB = 2,
+  MLCP_FRICTION_BOX = 3,
+  MLCP_FRICTION_FINDEX = 4
+};
+
+typedef struct mlcp_contacts {
+  size_t struct_size;
+  int32_t count;               /* number of contacts */
+  int32_t dimension;           /* rows a contact: 2 in the plane, 3 in space (the default) */
+  const int32_t *body_a;       /* count ids; NULL: all MLCP_WORLD */
+  const int32_t *body_b;       /* count ids; NULL: all MLCP_WORLD */
+  const double *jacobian_a;    /* per contact `dimension` rows of dimension(body_a) doubles, the normal first */
+  const double *jacobian_b;
+  ptrdiff_t jacobian_a_stride; /* bytes from one contact to the next; 0: packed, the world taking none */
+  ptrdiff_t jacobian_b_stride;
+  const double *r;             /* per contact `dimension` doubles; NULL: 0 */
+  const double *compliance;    /* per contact `dimension` doubles; NULL: 0 */
+  const double *mu;            /* coefficient of friction; NULL: 0 */
+  const double *bound;         /* N.s, for MLCP_FRICTION_BOX; NULL: +INFINITY */
+  const mlcp_friction *model;  /* NULL: MLCP_FRICTION_COULOMB */
+  const int32_t *facets;       /* NULL: 0 */
+  const uint64_t *key;         /* one a contact, taken by all its rows; NULL or 0: none */
+  ptrdiff_t vector_stride;     /* bytes from one contact to the next in r and compliance; 0: packed */
+  ptrdiff_t value_stride;      /* bytes between entries of mu, bound; 0: packed */
+  ptrdiff_t choice_stride;     /* bytes between entries of model, facets; 0: packed */
+  ptrdiff_t body_stride;       /* bytes between entries of body_a, body_b; 0: packed */
+  ptrdiff_t key_stride;        /* bytes between entries of key; 0: packed */
+} mlcp_contacts;
+
+/* Single precision twin: Jacobians, r, compliance, mu and bound are floats, widened on the way in. */
+typedef struct mlcp_contacts_f32 {
+  size_t struct_size;
+  int32_t count;
+  int32_t dimension;
+  const int32_t *body_a;
+  const int32_t *body_b;
+  const float *jacobian_a;
+  const float *jacobian_b;
+  ptrdiff_t jacobian_a_stride;
+  ptrdiff_t jacobian_b_stride;
+  const float *r;
+  const float *compliance;
+  const float *mu;
+  const float *bound;
+  const mlcp_friction *model;
+  const int32_t *facets;
+  const uint64_t *key;
+  ptrdiff_t vector_stride;
+  ptrdiff_t value_stride;
+  ptrdiff_t choice_stride;
+  ptrdiff_t body_stride;
+  ptrdiff_t key_stride;
+} mlcp_contacts_f32;
+
+MLCP_API void mlcp_contacts_init(mlcp_contacts *contacts, size_t struct_size);
+MLCP_API void mlcp_contacts_f32_init(mlcp_contacts_f32 *contacts, size_t struct_size);
+
+/* Adds contacts and their rows, `dimension` rows a contact in order. first: index of the first row, may be NULL. Errors: as for rows; a
+ * model that is none, mu < 0 or not finite, bound < 0, facets 1 or 2 in space. Removing some rows of a contact but not all is an error. */
+MLCP_API mlcp_status mlcp_problem_contacts_add(mlcp_problem *problem, const mlcp_contacts *contacts, int32_t *first);
+MLCP_API mlcp_status mlcp_problem_contacts_add_f32(mlcp_problem *problem, const mlcp_contacts_f32 *contacts, int32_t *first);
+
+/* Makes contacts of rows that are there (added as CSR, or without entries for a reduced problem, where S is the Delassus matrix):
+ * row[c] is the normal, with the bounds 0 and infinity, and rows row[c] + 1 .. row[c] + dimension - 1 are its tangents, whose bounds are
+ * set as the model has them. row: count entries; model, mu, bound, facets: count entries or NULL, as in mlcp_contacts. */
+MLCP_API mlcp_status mlcp_problem_contacts_declare(mlcp_problem *problem, int32_t count, int32_t dimension, const int32_t *row,
+                                                   const mlcp_friction *model, const double *mu, const double *bound,
+                                                   const int32_t *facets);
+
+/* New friction of contacts first .. first + count - 1, counted in order of adding; NULL leaves what there is. */
+MLCP_API mlcp_status mlcp_problem_contacts_set_friction(mlcp_problem *problem, int32_t first, int32_t count,
+                                                        const mlcp_friction *model, const double *mu, const double *bound,
+                                                        const int32_t *facets);
+
+/* Number of contacts; 0 for NULL. */
+MLCP_API int32_t mlcp_problem_contact_count(const mlcp_problem *problem);
+/* Reading back: normal row, rows a contact, model, coefficient, facets. count = the number of contacts; any pointer may be NULL. */
+MLCP_API mlcp_status mlcp_problem_get_contacts(const mlcp_problem *problem, int32_t count, int32_t *row, int32_t *dimension,
+                                               mlcp_friction *model, double *mu, int32_t *facets);
+
+/* The findex array of ODE, Bullet and DART, for rows first .. first + count - 1: findex[i] >= 0 makes lo and hi of row first + i factors
+ * (finite, lo <= 0 <= hi) of the impulse of row findex[i]: lo g_n <= g <= hi g_n. -1: plain bounds. Errors: the row belongs to a
+ * contact (whose model tells); findex[i] is the row itself or one whose bounds follow another. */
+MLCP_API mlcp_status mlcp_problem_rows_set_findex(mlcp_problem *problem, int32_t first, int32_t count, const int32_t *findex);
+/* Reading back: count = m entries. */
+MLCP_API mlcp_status mlcp_problem_get_findex(const mlcp_problem *problem, int32_t count, int32_t *findex);
+
 /* Reading back, into the caller's arrays of exactly the stated length: k n doubles; r, lo, hi, diagonal of S, keys m. Any pointer
  * may be NULL. */
 MLCP_API mlcp_status mlcp_problem_get_momentum(const mlcp_problem *problem, int32_t count, double *k);
@@ -323,7 +427,9 @@ MLCP_API mlcp_status mlcp_timestep_erp_cfm(double h, double erp, double cfm, dou
 
 /* ------------------------------------------------------------------------------------------------------------- mask */
 
-/* One state a row: which rows are enabled, active, at which bound; with the keys of the rows it was made for. */
+/* One state a row: which rows are enabled, active, at which bound; with the keys of the rows it was made for. Of a contact with friction
+ * the normal row is at lower (open) or active, its tangent rows are active (sticking) or at the bound that the slip drives them to. A mask
+ * that a solve returned also keeps how contacts slip, so that the next solve starts there. */
 typedef struct mlcp_mask mlcp_mask;
 
 typedef uint8_t mlcp_row_state;
@@ -439,6 +545,9 @@ typedef struct mlcp_settings {
   int32_t num_threads;           /* that solve islands, the caller's among them; 0: one a CPU; 1. The bits do not depend on it. */
   mlcp_parallel_for parallel_for; /* the caller's threads instead of ours; NULL: none */
   void *parallel_context;
+  int32_t facets;                /* of contacts that do not say; 0: the circular cone, by generators aimed at the slip until its error
+                                    is within the tolerance; else at least 3 */
+  int32_t max_shifts;            /* solves of the iteration for friction; 0: 300 */
 } mlcp_settings;
 
 MLCP_API void mlcp_settings_init(mlcp_settings *settings, size_t struct_size);
@@ -486,6 +595,20 @@ typedef struct mlcp_report {
   int32_t refactorized_for_drift;
   int32_t warm;                  /* 1 if it started from a mask, given or found by keys */
   int32_t fallbacks;             /* islands that newton or pgs gave up and another method solved */
+  /* contacts with friction; all 0 where there is none */
+  double cone_error;             /* largest over CONVEX and COULOMB contacts: of a dist(g, K), dist(w, K*), |g.w|/|g|, w with the Coulomb
+                                    shift mu max(-d.w_T), a their mean, over the largest of the contact's scales in constraint_error; part
+                                    of largest_error. Their rows are not in constraint_error; rows with findex are, by the bounds that
+                                    their normal impulse gives. */
+  double cone_residual;          /* the same in m/s */
+  int32_t worst_contact;         /* where cone_error is, -1 if there is none */
+  int32_t contacts_open;
+  int32_t contacts_sticking;
+  int32_t contacts_sliding;
+  int32_t generators;            /* rows that stand for cones in the solves */
+  int32_t facets;                /* most generators that one contact needed, those aimed anew included */
+  int32_t shift_iterations;      /* solves of the iteration for friction */
+  int32_t islands_by_lemke;      /* islands that the finite fallback solved */
 } mlcp_report;
 
 MLCP_API void mlcp_report_init(mlcp_report *report, size_t struct_size);
@@ -514,6 +637,17 @@ MLCP_API mlcp_status mlcp_solver_redundant(const mlcp_solver *solver, const uint
 /* Copies in single precision; entries stride_bytes apart (0: packed). */
 MLCP_API mlcp_status mlcp_solver_read_velocities_f32(const mlcp_solver *solver, int32_t count, float *v, ptrdiff_t stride_bytes);
 MLCP_API mlcp_status mlcp_solver_read_impulses_f32(const mlcp_solver *solver, int32_t count, float *gamma, ptrdiff_t stride_bytes);
+
+/* Per contact, in order of adding: what it does and how many generators of its cone were tried (0 where it has none). */
+typedef uint8_t mlcp_contact_state;
+enum {
+  MLCP_CONTACT_DISABLED = 0, /* its normal row is left out */
+  MLCP_CONTACT_OPEN = 1,     /* no impulse */
+  MLCP_CONTACT_STICKING = 2, /* w_T = 0 */
+  MLCP_CONTACT_SLIDING = 3   /* w_T != 0, the impulse at the limit of friction */
+};
+MLCP_API mlcp_status mlcp_solver_contact_states(const mlcp_solver *solver, const mlcp_contact_state **state, int32_t *count);
+MLCP_API mlcp_status mlcp_solver_contact_facets(const mlcp_solver *solver, const int32_t **facets, int32_t *count);
 
 /* The impulse that a prescribed body needs to keep its velocity, (M v - k - J' g) on its velocities; count = dimension. */
 MLCP_API mlcp_status mlcp_solver_reaction(const mlcp_solver *solver, const mlcp_problem *problem, int32_t body, int32_t count,

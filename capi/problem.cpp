@@ -2,6 +2,7 @@
 
 #include "assemble/bodies.h"
 #include "assemble/compliance.h"
+#include "assemble/contacts.h"
 #include "assemble/rows.h"
 #include "assemble/storage.h"
 #include "assemble/validate.h"
@@ -21,6 +22,14 @@ void lend(const SparseView& matrix, int32_t rows, int32_t columns, mlcp_matrix_v
   require(out, "view");
   check_struct_size<mlcp_matrix_view>("view", out->struct_size);
   export_struct({sizeof(mlcp_matrix_view), rows, columns, matrix.entries(), matrix.pointers, matrix.indices, matrix.values}, out);
+}
+
+/// In space, without anything else.
+template <class Contacts>
+Contacts default_contacts() {
+  Contacts contacts{};
+  contacts.dimension = 3;
+  return contacts;
 }
 
 }  // namespace
@@ -207,6 +216,69 @@ mlcp_status mlcp_problem_rows_remove(mlcp_problem* problem, int32_t count, const
 
 mlcp_status mlcp_problem_rows_clear(mlcp_problem* problem) {
   return edit(problem, [](mlcp_problem& p) { rows_clear(p.problem); });
+}
+
+// ------------------------------------------------------------------------------------------------------------ contacts
+
+void mlcp_contacts_init(mlcp_contacts* contacts, size_t struct_size) {
+  init_struct(default_contacts<mlcp_contacts>(), contacts, struct_size);
+}
+void mlcp_contacts_f32_init(mlcp_contacts_f32* contacts, size_t struct_size) {
+  init_struct(default_contacts<mlcp_contacts_f32>(), contacts, struct_size);
+}
+
+mlcp_status mlcp_problem_contacts_add(mlcp_problem* problem, const mlcp_contacts* contacts, int32_t* first) {
+  return edit(problem, [&](mlcp_problem& p) {
+    set_if(first, contacts_add(p.problem, import_struct("contacts", contacts, default_contacts<mlcp_contacts>())));
+  });
+}
+
+mlcp_status mlcp_problem_contacts_add_f32(mlcp_problem* problem, const mlcp_contacts_f32* contacts, int32_t* first) {
+  return edit(problem, [&](mlcp_problem& p) {
+    set_if(first, contacts_add(p.problem, import_struct("contacts", contacts, default_contacts<mlcp_contacts_f32>())));
+  });
+}
+
+mlcp_status mlcp_problem_contacts_declare(mlcp_problem* problem, int32_t count, int32_t dimension, const int32_t* row,
+                                          const mlcp_friction* model, const double* mu, const double* bound,
+                                          const int32_t* facets) {
+  return edit(problem, [&](mlcp_problem& p) { contacts_declare(p.problem, count, dimension, row, {model, mu, bound, facets}); });
+}
+
+mlcp_status mlcp_problem_contacts_set_friction(mlcp_problem* problem, int32_t first, int32_t count, const mlcp_friction* model,
+                                               const double* mu, const double* bound, const int32_t* facets) {
+  return edit(problem, [&](mlcp_problem& p) { contacts_set_friction(p.problem, first, count, {model, mu, bound, facets}); });
+}
+
+int32_t mlcp_problem_contact_count(const mlcp_problem* problem) {
+  return problem ? static_cast<int32_t>(problem->problem.contacts.size()) : 0;
+}
+
+mlcp_status mlcp_problem_get_contacts(const mlcp_problem* problem, int32_t count, int32_t* row, int32_t* dimension,
+                                      mlcp_friction* model, double* mu, int32_t* facets) {
+  return look(problem, [&](const mlcp_problem& p) {
+    check_length("count", count, mlcp_problem_contact_count(problem));
+    for (int32_t c = 0; c < count; ++c) {
+      const Contact& contact = p.problem.contacts[c];
+      if (row) row[c] = contact.row;
+      if (dimension) dimension[c] = contact.dimension;
+      if (model) model[c] = contact.model;
+      if (mu) mu[c] = contact.mu;
+      if (facets) facets[c] = contact.facets;
+    }
+  });
+}
+
+mlcp_status mlcp_problem_rows_set_findex(mlcp_problem* problem, int32_t first, int32_t count, const int32_t* findex) {
+  return edit(problem, [&](mlcp_problem& p) { rows_set_findex(p.problem, first, count, findex); });
+}
+
+mlcp_status mlcp_problem_get_findex(const mlcp_problem* problem, int32_t count, int32_t* findex) {
+  return look(problem, [&](const mlcp_problem& p) {
+    check_length("count", count, p.problem.m());
+    check_array("findex", findex, count);
+    for (int32_t i = 0; i < count; ++i) findex[i] = coupled_to(p.problem, i);
+  });
 }
 
 // -------------------------------------------------------------------------------------------------------- reading back

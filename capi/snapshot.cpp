@@ -23,7 +23,7 @@ void check_bytes(const void* bytes, size_t size) {
 
 SnapshotSource source_of(const Problem& problem, const mlcp_solver* solver, const Settings& defaults, const mlcp_mask* enabled,
                          const mlcp_mask* start) {
-  const Mask* carried = solver ? solver->solver.carried_start(problem) : nullptr;
+  const Mask* carried = solver ? solver->solver.found_start(problem) : nullptr;
   return {problem, solver ? solver->solver.settings() : defaults,
           solver ? solver->solver.ordering() : std::span<const int32_t>{}, mask_of(enabled), start ? &start->mask : carried};
 }

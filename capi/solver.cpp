@@ -1,5 +1,3 @@
-#include "solver.h"
-
 #include "assemble/validate.h"
 #include "handles.h"
 #include "report/reaction.h"
@@ -20,16 +18,22 @@ const Result& result_of(const mlcp_solver& handle) {
   return result;
 }
 
-/// Looks at one array of the result.
-template <class T, class Member>
-mlcp_status lend(const mlcp_solver* solver, const T** data, int32_t* count, Member member) {
+/// Looks at one array that a solve has left.
+template <class T, class Get>
+mlcp_status lend_array(const mlcp_solver* solver, const T** data, int32_t* count, Get get) {
   return look(solver, [&](const mlcp_solver& s) {
     require(data, "array");
     require(count, "count");
-    const Array<T>& array = result_of(s).*member;
+    result_of(s);
+    const Array<T>& array = get(s.solver);
     *data = array.data();
     *count = static_cast<int32_t>(array.size());
   });
+}
+
+template <class T>
+mlcp_status lend(const mlcp_solver* solver, const T** data, int32_t* count, Array<T> Result::*member) {
+  return lend_array(solver, data, count, [&](const ContactSolver& s) -> const Array<T>& { return s.result().*member; });
 }
 
 void narrow(const Array<double>& from, const char* name, int32_t count, float* to, ptrdiff_t stride_bytes) {
@@ -107,11 +111,13 @@ mlcp_status mlcp_solve(mlcp_solver* solver, const mlcp_problem* problem, const m
     full.struct_size = sizeof full;
     // start may be the mask that this solver lends, so that changes only afterwards
     s.lent.mask.reserve(problem->problem.m());
+    if (!problem->problem.contacts.empty() || !problem->problem.couplings.empty()) s.lent.mask.slip.reserve(problem->problem.m());
     s.solver.solve(problem->problem, mask_of(enabled), mask_of(start), full);
     const Mask& mask = s.solver.result().mask;
     s.lent.mask.state.assign(mask.state.span());
     s.lent.mask.key.assign(mask.key.span());
     s.lent.mask.impulse.assign(mask.impulse.span());
+    s.lent.mask.slip.assign(mask.slip.span());
     if (report) export_struct(full, report);
   });
 }
@@ -164,6 +170,14 @@ mlcp_status mlcp_solver_row_islands(const mlcp_solver* solver, const int32_t** i
 
 mlcp_status mlcp_solver_island_outcomes(const mlcp_solver* solver, const mlcp_outcome** outcome, int32_t* count) {
   return lend(solver, outcome, count, &Result::island_outcome);
+}
+
+mlcp_status mlcp_solver_contact_states(const mlcp_solver* solver, const mlcp_contact_state** state, int32_t* count) {
+  return lend_array(solver, state, count, [](const ContactSolver& s) -> const auto& { return s.contact_states(); });
+}
+
+mlcp_status mlcp_solver_contact_facets(const mlcp_solver* solver, const int32_t** facets, int32_t* count) {
+  return lend_array(solver, facets, count, [](const ContactSolver& s) -> const auto& { return s.contact_facets(); });
 }
 
 mlcp_status mlcp_solver_certificate(const mlcp_solver* solver, int32_t island, const int32_t** rows, const double** y,

@@ -41,17 +41,15 @@ struct Solver::State {
   Measure measure;
   Result result;
   Array<std::int32_t> imposed;
-  Mask carried;  ///< the start that keys gave
-  CarryWorkspace carry;
-  Mask given_up;  ///< rows of the islands that go to the exact stage
+  Mask given_up;       ///< rows of the islands that go to the exact stage
+  Array<double> kept;  ///< v, while a canonical answer is tried
   Errors errors;
   std::int32_t indefinite = -1;  ///< the velocity whose pivot is not positive
 
   State(const Settings& s, const Memory& m)
-      : memory(m), settings(s), main(m), exact(m), pool(m), measure(m), result(m), imposed(m), carried(m), carry(m), given_up(m) {}
+      : memory(m), settings(s), main(m), exact(m), pool(m), measure(m), result(m), imposed(m), given_up(m), kept(m) {}
 
   bool analyze(const Problem& problem, const Mask* enabled);
-  const Mask* find_start(const Problem& problem);
   void solve_free_velocities(const Problem& problem);
   void read_ends(const Stage& stage, const Problem& problem, bool only_rows, mlcp_report& report, Counts& counts);
   void collect(const Problem& problem);
@@ -86,11 +84,6 @@ const Analysis& Solver::analysis() const { return state_->main.analysis; }
 std::span<const std::int32_t> Solver::ordering() const { return state_->main.analysis.ordering.order.span(); }
 void Solver::impose_ordering(std::span<const std::int32_t> ordering) { state_->imposed.assign(ordering); }
 
-const Mask* Solver::carried_start(const Problem& problem) const {
-  const Mask& mask = state_->carried;
-  return !mask.state.empty() && static_cast<std::int32_t>(mask.state.size()) == problem.m() ? &mask : nullptr;
-}
-
 bool Solver::State::analyze(const Problem& problem, const Mask* enabled) {
   check_mask(enabled, problem, "enabled");
   const bool rows_last = settings.method == MLCP_METHOD_SIMPLEX;
@@ -101,16 +94,6 @@ bool Solver::State::analyze(const Problem& problem, const Mask* enabled) {
 }
 
 void Solver::analyze(const Problem& problem, const Mask* enabled) { state_->analyze(problem, enabled); }
-
-/// Where rows with the same key were left; NULL if there are none.
-const Mask* Solver::State::find_start(const Problem& problem) {
-  carried.state.clear();
-  if (!settings.warm_start || !result.valid) return nullptr;
-  const auto keyed = [](const Array<std::uint64_t>& keys) { return std::any_of(keys.begin(), keys.end(), [](std::uint64_t k) { return k != 0; }); };
-  if (!keyed(problem.key) || !keyed(result.mask.key)) return nullptr;
-  mask_carry(carried, problem, result.mask, MLCP_ROW_AT_LOWER, carry);
-  return &carried;
-}
 
 /// v = k / M where nothing couples to anything.
 void Solver::State::solve_free_velocities(const Problem& problem) {
@@ -184,12 +167,11 @@ void Solver::State::make_canonical(const SolveInput& input) {
   const double before = errors.largest();
   given_up.state.assign(result.mask.state.span());
   given_up.impulse.assign(result.gamma.span());
-  measure.velocity_error.resize(input.problem.n());
-  carry.rows.impulse.assign(result.v.span());
+  kept.assign(result.v.span());
   exact.collect(input.problem, false, result);
   const Errors now = measure.run(input.problem, input.enabled, result.v.span(), result.gamma.span());
   if (now.largest() <= std::max(settings.tolerance, before)) return;
-  result.v.assign(carry.rows.impulse.span());
+  result.v.assign(kept.span());
   result.gamma.assign(given_up.impulse.span());
   result.mask.state.assign(given_up.state.span());
 }
@@ -253,7 +235,6 @@ void Solver::solve(const Problem& problem, const Mask* enabled, const Mask* star
   State& s = *state_;
   check_mask(enabled, problem, "enabled");
   check_mask(start, problem, "start");
-  if (!start) start = s.find_start(problem);
   s.result.valid = false;
   s.pool.resize(s.settings.parallel_for ? 1 : s.settings.num_threads > 0 ? s.settings.num_threads : static_cast<std::int32_t>(std::max(1u, std::thread::hardware_concurrency())));
   Watch watch(s.settings);

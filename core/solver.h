@@ -32,8 +32,6 @@ class Solver {
   const Analysis& analysis() const;
   /// Elimination order of the last analysis: velocity j is j, row i is n + i; empty before the first one.
   std::span<const std::int32_t> ordering() const;
-  /// The start that keys gave the last solve, if it is one for this problem; else NULL.
-  const Mask* carried_start(const Problem& problem) const;
   /// The next analysis uses this order, if it is one for its pattern: every velocity and row it needs, each once.
   void impose_ordering(std::span<const std::int32_t> ordering);
 

@@ -28,24 +28,28 @@ void Mask::swap(Mask& other) noexcept {
   state.swap(other.state);
   key.swap(other.key);
   impulse.swap(other.impulse);
+  slip.swap(other.slip);
 }
 
 void Mask::trim() {
   state.trim();
   key.trim();
   impulse.trim();
+  slip.trim();
 }
 
 void mask_resize(Mask& mask, std::int32_t count, mlcp_row_state state) {
   check_count("count", count);
   check_state({"state"}, state);
-  const bool keyed = !mask.key.empty(), moved = !mask.impulse.empty();
+  const bool keyed = !mask.key.empty(), moved = !mask.impulse.empty(), slips = !mask.slip.empty();
   mask.state.reserve(count);
   if (keyed) mask.key.reserve(count);
   if (moved) mask.impulse.reserve(count);
+  if (slips) mask.slip.reserve(count);
   mask.state.resize(count, state);
   if (keyed) mask.key.resize(count, 0);
   if (moved) mask.impulse.resize(count, 0);
+  if (slips) mask.slip.resize(count, 0);
 }
 
 void mask_set(Mask& mask, std::int32_t first, std::int32_t count, const mlcp_row_state* states) {
@@ -53,6 +57,7 @@ void mask_set(Mask& mask, std::int32_t first, std::int32_t count, const mlcp_row
   check_array("states", states, count);
   for (std::int32_t i = 0; i < count; ++i) check_state({"states", i}, states[i]);
   std::copy_n(states, count, mask.state.data() + first);
+  if (!mask.slip.empty()) std::fill_n(mask.slip.data() + first, count, 0.0);
 }
 
 void mask_get(const Mask& mask, std::int32_t first, std::int32_t count, mlcp_row_state* states) {
@@ -93,14 +98,16 @@ void mask_take_keys(Mask& mask, const Problem& problem) {
 void mask_carry(Mask& mask, const Problem& problem, const Mask& previous, mlcp_row_state otherwise, CarryWorkspace& work) {
   check_state({"otherwise"}, otherwise);
   work.table.build(previous.key.span());
-  const bool moved = !previous.impulse.empty();
+  const bool moved = !previous.impulse.empty(), slips = !previous.slip.empty();
   work.rows.reserve(problem.m());
   work.rows.state.resize(problem.m());
   work.rows.impulse.resize(moved ? problem.m() : 0);
+  work.rows.slip.resize(slips ? problem.m() : 0);
   for (std::int32_t i = 0; i < problem.m(); ++i) {
     const std::int32_t row = work.table.take(problem.key[i]);
     work.rows.state[i] = row < 0 ? otherwise : previous.state[row];
     if (moved) work.rows.impulse[i] = row < 0 ? 0 : previous.impulse[row];
+    if (slips) work.rows.slip[i] = row < 0 ? 0 : previous.slip[row];
   }
   work.rows.key.assign(problem.key.span());
   mask.swap(work.rows);

@@ -7,15 +7,17 @@ namespace mlcp {
 
 struct Problem;
 
-/// One state a row and, if known, its key and impulse: `key` and `impulse` are empty or as long as `state`.
+/// One state a row and, if known, its key, its impulse and how its contact slips: `key`, `impulse` and `slip` are empty or as long as `state`.
+/// slip, of contacts that a solve has found: on the normal row µ|w_T|, 0 when it does not slip; on the tangent rows w_T when it slips, else
+/// γ_T/(µ γ_n). On rows whose bounds follow another row: the impulse of that row.
 struct Mask {
   Memory memory;
   Array<mlcp_row_state> state;
   Array<std::uint64_t> key;
-  Array<double> impulse;
+  Array<double> impulse, slip;
 
-  explicit Mask(const Memory& m) : memory(m), state(m), key(m), impulse(m) {}
-  void reserve(std::size_t rows);
+  explicit Mask(const Memory& m) : memory(m), state(m), key(m), impulse(m), slip(m) {}
+  void reserve(std::size_t rows);  ///< slip excepted, which few masks have
   void swap(Mask& other) noexcept;
   void trim();
 };
@@ -40,7 +42,7 @@ struct CarryWorkspace {
   explicit CarryWorkspace(const Memory& memory) : table(memory), rows(memory) {}
 };
 
-/// States, impulses and keys for the rows of `problem`: those that the row with the same key had in `previous`, else `otherwise` and 0.
+/// States, impulses, slips and keys for the rows of `problem`: those that the row with the same key had in `previous`, else `otherwise` and 0.
 /// `previous` may be the mask itself.      cost: expected O(m).
 void mask_carry(Mask& mask, const Problem& problem, const Mask& previous, mlcp_row_state otherwise, CarryWorkspace& work);
 

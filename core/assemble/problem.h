@@ -6,6 +6,7 @@
 #include "assemble/marker.h"
 #include "memory/array.h"
 #include "memory/error.h"
+#include "mlcp.h"
 
 namespace mlcp {
 
@@ -33,6 +34,21 @@ struct Body {
   std::int32_t dimension = 0;
   std::int32_t prescribed = 0; ///< 1: the velocity is given
   std::int32_t sparse = 0;     ///< 0: dense mass; else 1 + the mlcp_triangle that the caller stores
+};
+
+/// Rows row (normal) and row + 1 … row + dimension − 1 (tangents). What the model asks of the rows stands with them too: bounds of
+/// the tangents for MLCP_FRICTION_BOX, a Coupling each for MLCP_FRICTION_FINDEX.
+struct Contact {
+  std::int32_t row = 0;
+  std::int32_t dimension = 3;  ///< 2 in the plane, 3 in space
+  mlcp_friction model = MLCP_FRICTION_NONE;
+  std::int32_t facets = 0;     ///< of the pyramid; 0: as the solver's settings say
+  double mu = 0;
+};
+
+/// A row whose bounds are its lo and hi times the impulse of another one, `normal`.
+struct Coupling {
+  std::int32_t row, normal;
 };
 
 /// What edits write to before they change anything. Holds nothing between two calls, so a copy is empty.
@@ -71,12 +87,14 @@ struct Problem {
   Array<std::int32_t> diagonal;  ///< m: position of Σᵢᵢ in compliance.values
   Array<double> r, lo, hi;       ///< m
   Array<std::uint64_t> key;      ///< m, 0: none
+  Array<Contact> contacts;       ///< in order of adding; no row is in two of them
+  Array<Coupling> couplings;     ///< ascending rows; no normal is itself coupled
   std::int32_t free_ids = 0;     ///< ids in `bodies` to be given out again; the last id is never free
   EditWorkspace work;
 
   explicit Problem(const Memory& m)
       : memory(m), bodies(m), body_of(m), mass(m), mass_slot(m), mass_slot_start(m), momentum(m), given_velocity(m), jacobian(m),
-        compliance(m), diagonal(m), r(m), lo(m), hi(m), key(m), work(m) {
+        compliance(m), diagonal(m), r(m), lo(m), hi(m), key(m), contacts(m), couplings(m), work(m) {
     mass_slot_start.push_back(0);
   }
 

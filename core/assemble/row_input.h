@@ -7,16 +7,19 @@
 
 namespace mlcp {
 
-/// Numbers of either precision, `stride` bytes apart in the caller's memory; where there are none, one value for all.
+/// Numbers of either precision in the caller's memory, groups of `group` of them `stride` bytes apart, packed within a group; where there
+/// are none, one value for all.
 struct Numbers {
   const void* data = nullptr;
   std::ptrdiff_t stride = 0;
   bool single = false;
   double otherwise = 0;
+  std::int32_t group = 1;
 
+  std::ptrdiff_t size() const { return single ? sizeof(float) : sizeof(double); }
   double operator[](std::int64_t i) const {
     if (!data) return otherwise;
-    const char* at = static_cast<const char*>(data) + i * stride;
+    const char* at = static_cast<const char*>(data) + (group == 1 ? i * stride : i / group * stride + i % group * size());
     if (single) {
       float x;
       std::memcpy(&x, at, sizeof x);
@@ -28,27 +31,32 @@ struct Numbers {
   }
 };
 
-inline Numbers numbers(const double* data, double otherwise, std::ptrdiff_t stride = 0) {
-  return {data, stride ? stride : std::ptrdiff_t(sizeof(double)), false, otherwise};
-}
-inline Numbers numbers(const float* data, double otherwise, std::ptrdiff_t stride = 0) {
-  return {data, stride ? stride : std::ptrdiff_t(sizeof(float)), true, otherwise};
+/// stride 0: packed.
+template <class T>
+Numbers numbers(const T* data, double otherwise, std::ptrdiff_t stride = 0, std::int32_t group = 1) {
+  return {data, stride ? stride : group * std::ptrdiff_t(sizeof(T)), sizeof(T) == sizeof(float), otherwise, group};
 }
 
-/// Integers `stride` bytes apart.
+/// Integers `stride` bytes apart, each for `group` indices.
 template <class T>
 struct Integers {
   const T* data = nullptr;
   std::ptrdiff_t stride = 0;
   T otherwise = 0;
+  std::int32_t group = 1;
 
   T operator[](std::int64_t i) const {
     if (!data) return otherwise;
     T x;
-    std::memcpy(&x, reinterpret_cast<const char*>(data) + i * stride, sizeof x);
+    std::memcpy(&x, reinterpret_cast<const char*>(data) + (group == 1 ? i : i / group) * stride, sizeof x);
     return x;
   }
 };
+/// stride 0: packed.
+template <class T>
+Integers<T> integers(const T* data, T otherwise, std::ptrdiff_t stride = 0, std::int32_t group = 1) {
+  return {data, stride ? stride : std::ptrdiff_t(sizeof(T)), otherwise, group};
+}
 
 /// What every row brings besides its entries of J.
 struct RowFields {

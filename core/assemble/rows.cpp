@@ -127,6 +127,8 @@ void rows_clear(Problem& problem) {
   problem.diagonal.clear();
   for (Array<double>* a : {&problem.r, &problem.lo, &problem.hi}) a->clear();
   problem.key.clear();
+  problem.contacts.clear();
+  problem.couplings.clear();
 }
 
 }  // namespace mlcp

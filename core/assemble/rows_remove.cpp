@@ -1,3 +1,4 @@
+#include "assemble/contacts.h"
 #include "assemble/rows.h"
 #include "assemble/validate.h"
 
@@ -56,6 +57,8 @@ void rows_remove(Problem& problem, std::int32_t count, const std::int32_t* rows)
   check_array("rows", rows, count);
   const std::int32_t left = number_rows(problem, count, rows);
   const Array<std::int32_t>& to = problem.work.index;
+  check_contacts_renumber(problem, to.span());
+  contacts_renumber(problem, to.span());
   compact(problem.jacobian, to, left, false);
   compact(problem.compliance, to, left, true);
   for (Array<double>* a : {&problem.r, &problem.lo, &problem.hi}) compact(*a, to, left);

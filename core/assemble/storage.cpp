@@ -63,6 +63,7 @@ void reserve(Problem& problem, std::int32_t bodies, std::int32_t velocities, std
   problem.lo.reserve(rows);
   problem.hi.reserve(rows);
   problem.key.reserve(rows);
+  problem.contacts.reserve(rows / 2);
   problem.work.marker.reserve(std::max(velocities, rows));
   problem.work.index.reserve(std::max(bodies, rows));
   if (bodies > 0) problem.work.value.reserve(std::max<std::int64_t>(velocities, 2 * dimension * dimension));
@@ -77,6 +78,8 @@ void trim(Problem& problem) {
   problem.bodies.trim();
   problem.mass_slot_start.trim();
   problem.key.trim();
+  problem.contacts.trim();
+  problem.couplings.trim();
   trim(problem.work);
 }
 
@@ -87,6 +90,8 @@ void clear(Problem& problem) {
   problem.bodies.clear();
   problem.mass_slot_start.resize(1);
   problem.key.clear();
+  problem.contacts.clear();
+  problem.couplings.clear();
   problem.free_ids = 0;
 }
 

@@ -16,6 +16,18 @@ void rows_set_bounds(Problem& problem, std::int32_t first, std::int32_t count, c
   check_array("lo", lo, count);
   check_array("hi", hi, count);
   for (std::int32_t i = 0; i < count; ++i) check_bounds(lo[i], hi[i], i);
+  for (const Coupling& c : problem.couplings) {
+    const std::int32_t i = c.row - first;
+    if (i >= 0 && i < count && !(std::isfinite(lo[i]) && std::isfinite(hi[i]) && lo[i] <= 0 && hi[i] >= 0))
+      throw Error(MLCP_ERROR_ARGUMENT, "lo[%d] = %g and hi[%d] = %g are not finite factors with 0 between them, but row %d follows row %d", i,
+                  lo[i], i, hi[i], c.row, c.normal);
+  }
+  for (const Contact& c : problem.contacts) {
+    const std::int32_t i = c.row - first;
+    if (i >= 0 && i < count && (lo[i] != 0 || hi[i] != infinity))
+      throw Error(MLCP_ERROR_ARGUMENT, "lo[%d] = %g and hi[%d] = %g, but row %d is the normal of a contact: 0 and infinity", i, lo[i], i, hi[i],
+                  c.row);
+  }
   std::copy_n(lo, count, problem.lo.data() + first);
   std::copy_n(hi, count, problem.hi.data() + first);
 }

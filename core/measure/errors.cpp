@@ -41,10 +41,10 @@ void Measure::momentum(const Problem& problem, std::span<const double> v, std::s
   velocity_error.assign(n, 0.0);
   for (std::int32_t j = 0; j < n; ++j) {
     if (problem.prescribed(j)) continue;
-    const double residual = or_infinite(std::abs(static_cast<double>(sum_[j])));
-    const double relative = !std::isfinite(size_[j]) ? infinity : or_infinite(size_[j] > 0 ? residual / size_[j] : residual);
+    const double absolute = or_infinite(std::abs(static_cast<double>(sum_[j])));
+    const double relative = !std::isfinite(size_[j]) ? infinity : or_infinite(size_[j] > 0 ? absolute / size_[j] : absolute);
     velocity_error[j] = relative;
-    e.momentum_residual = std::max(e.momentum_residual, residual);
+    e.momentum_residual = std::max(e.momentum_residual, absolute);
     if (e.worst_velocity < 0 || relative > e.momentum) e.worst_velocity = j;
     e.momentum = std::max(e.momentum, relative);
   }
@@ -66,6 +66,7 @@ void Measure::rows(const Problem& problem, const Mask* enabled, std::span<const 
   w.assign(m, 0.0);
   scale.assign(m, 0.0);
   a.assign(m, 0.0);
+  residual.assign(m, 0.0);
   error.assign(m, 0.0);
   double largest_a = 0;
   for (std::int32_t i = 0; i < m; ++i) {
@@ -91,10 +92,19 @@ void Measure::rows(const Problem& problem, const Mask* enabled, std::span<const 
   for (std::int32_t i = 0; i < m; ++i) {
     if (enabled && enabled->state[i] == MLCP_ROW_DISABLED) continue;
     if (!(a[i] > 0)) a[i] = largest_a > 0 ? largest_a : 1;
-    const double residual = or_infinite(std::abs(natural_residual(w[i], a[i], gamma[i], problem.lo[i], problem.hi[i])));
-    error[i] = or_infinite(residual / scale[i]);
+    residual[i] = or_infinite(std::abs(natural_residual(w[i], a[i], gamma[i], problem.lo[i], problem.hi[i])));
+    error[i] = or_infinite(residual[i] / scale[i]);
     if (!std::isfinite(gamma[i]) || !std::isfinite(w[i]) || !std::isfinite(scale[i])) error[i] = infinity;
-    e.constraint_residual = std::max(e.constraint_residual, residual);
+  }
+  take_maxima(enabled, e);
+}
+
+void Measure::take_maxima(const Mask* enabled, Errors& e) const {
+  e.constraints = e.constraint_residual = 0;
+  e.worst_row = -1;
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(error.size()); ++i) {
+    if (enabled && enabled->state[i] == MLCP_ROW_DISABLED) continue;
+    e.constraint_residual = std::max(e.constraint_residual, residual[i]);
     if (e.worst_row < 0 || error[i] > e.constraints) e.worst_row = i;
     e.constraints = std::max(e.constraints, error[i]);
   }

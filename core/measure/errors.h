@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+
 #include "assemble/mask.h"
 #include "assemble/problem.h"
 
@@ -11,22 +13,31 @@ struct Errors {
   double momentum_residual = 0;     ///< N·s
   double constraint_residual = 0;   ///< m/s
   std::int32_t worst_velocity = -1, worst_row = -1;
-  double largest() const { return momentum > constraints ? momentum : constraints; }
+  double cones = 0;                 ///< defect of contacts with a cone over their scale
+  double cone_residual = 0;         ///< m/s
+  std::int32_t worst_contact = -1;
+  double largest() const { return std::max({momentum, constraints, cones}); }
 };
 
 /// Workspace and per-row numbers of one measurement.
 class Measure {
  public:
-  explicit Measure(const Memory& m) : w(m), scale(m), a(m), error(m), velocity_error(m), sum_(m), size_(m) {}
+  explicit Measure(const Memory& m) : w(m), scale(m), a(m), residual(m), error(m), velocity_error(m), sum_(m), size_(m) {}
 
   /// after: w, scale, a, error (rows) and velocity_error hold what the maxima were taken over; rows left out by enabled are 0.
   Errors run(const Problem& problem, const Mask* enabled, std::span<const double> v, std::span<const double> gamma);
 
+  /// The maxima over rows, of residual and error as they are now.
+  void take_maxima(const Mask* enabled, Errors& e) const;
+
   Array<double> w;               ///< J v + Σ γ − r
   Array<double> scale;           ///< |J|(|v| + |v₀|) + |Σ||γ| + |r|,  v₀ⱼ = kⱼ/Mⱼⱼ
   Array<double> a;               ///< Σⱼ Jᵢⱼ²/Mⱼⱼ + Σᵢᵢ; where that is 0 the largest of the problem, or 1
-  Array<double> error;           ///< per row
+  Array<double> residual;        ///< |median(w, a(γ − lo), a(γ − hi))| per row
+  Array<double> error;           ///< residual / scale per row
   Array<double> velocity_error;  ///< per velocity
+  /// (M v − Jᵀγ − k)ⱼ of the last run.
+  double momentum_residual(std::int32_t j) const { return static_cast<double>(sum_[j]); }
 
  private:
   void momentum(const Problem& problem, std::span<const double> v, std::span<const double> gamma, Errors& e);

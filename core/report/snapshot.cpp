@@ -11,8 +11,8 @@ namespace mlcp {
 namespace {
 
 constexpr std::size_t header_size = 40, crc_at = 36;
-/// 1: without impulses in masks and the settings that came with newton.
-constexpr std::uint32_t version = 2;
+/// 1: without contacts, impulses in masks and the settings that came with newton and friction.
+constexpr std::uint32_t version = 2, oldest_version = 1;
 constexpr std::uint8_t magic[8] = {'M', 'L', 'C', 'P', 'S', 'N', 'A', 'P'};
 
 struct Header {
@@ -39,7 +39,8 @@ Header read_header(std::span<const std::uint8_t> bytes) {
   from.u32();
   const Header header{from.u64(), from.u64(), from.u32(), found};
   if (from.u32() != checksum(bytes.first(crc_at))) throw Error(MLCP_ERROR_FORMAT, "the snapshot is damaged: its header");
-  if (found < 1 || found > version) throw Error(MLCP_ERROR_FORMAT, "the snapshot has version %u, this library reads 1 to %u", found, version);
+  if (found < oldest_version || found > version)
+    throw Error(MLCP_ERROR_FORMAT, "the snapshot has version %u, this library reads %u to %u", found, oldest_version, version);
   return header;
 }
 

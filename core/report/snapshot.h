@@ -6,14 +6,15 @@
 /// All that a solve depends on, as bytes: a replay by the same build gives the same bits.
 ///
 ///   magic      8 bytes "MLCPSNAP"
-///   version    u32, 1                       reserved  u32, 0
+///   version    u32, 2                       reserved  u32, 0
 ///   size       u64, of the payload          packed    u64, of the payload compressed
 ///   crc        u32, of the packed bytes     crc       u32, of the 36 bytes before it
 ///   packed bytes (zlib)
 ///
 /// Little endian. Counts stand in front of arrays as u32. Payload of version 1: settings (method, pivot rule, refactorize, trace,
 /// tolerance, iterations, work, seconds); bodies in order of id (dimension, 0: free; mass as it was given); k; rows (r, lo, hi,
-/// key, J by rows, S by columns); enabled and start mask; ordering.
+/// key, J by rows, S by columns); enabled and start mask; ordering. Version 2 adds: facets and shifts to the settings; contacts (row,
+/// dimension, model, facets, mu) and coupled rows (row, normal) after the rows; how contacts slip to each mask.
 namespace mlcp {
 
 struct SnapshotSource {

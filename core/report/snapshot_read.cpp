@@ -1,8 +1,10 @@
 #include "assemble/bodies.h"
 #include "assemble/compliance.h"
+#include "assemble/contacts.h"
 #include "assemble/layout.h"
 #include "assemble/rows.h"
 #include "assemble/validate.h"
+#include "assemble/values.h"
 #include "report/bytes.h"
 #include "report/snapshot_payload.h"
 
@@ -16,6 +18,9 @@ struct Scratch {
   Array<double> values;
   explicit Scratch(const Memory& memory) : pointers(memory), indices(memory), values(memory) {}
 };
+
+/// Rows that stand for one row of a contact inside, at most.
+constexpr std::int32_t most_rows_inside = 6;
 
 /// What is being read, for the text of an error.
 struct Place {
@@ -44,6 +49,8 @@ void read_settings(ByteReader& from, std::uint32_t version, Settings& settings) 
     settings.canonical = from.i32();
     settings.warm_start = from.i32();
     settings.num_threads = from.i32();
+    settings.facets = from.i32();
+    settings.max_shifts = from.i32();
   }
   check_settings(settings);
 }
@@ -107,6 +114,33 @@ void read_rows(const Memory& memory, ByteReader& from, Scratch& scratch, Problem
   set_compliance_matrix(problem, {m, scratch.pointers.data(), scratch.indices.data(), scratch.values.data(), MLCP_FULL});
 }
 
+/// Declaring contacts sets the bounds of their tangents; those of MLCP_FRICTION_BOX were read with the rows and come back after it.
+void read_contacts(const Memory& memory, ByteReader& from, Problem& problem) {
+  const std::int32_t count = from.count(4 * sizeof(std::int32_t) + sizeof(double));
+  Array<std::int32_t> row(memory), dimension(memory), facets(memory);
+  Array<mlcp_friction> model(memory);
+  Array<double> mu(memory), lo(problem.lo), hi(problem.hi);
+  for (std::int32_t c = 0; c < count; ++c) {
+    row.push_back(from.i32());
+    dimension.push_back(from.i32());
+    model.push_back(from.i32());
+    facets.push_back(from.i32());
+    mu.push_back(from.f64());
+  }
+  for (std::int32_t first = 0, last = 0; first < count; first = last) {
+    while (last < count && dimension[last] == dimension[first]) ++last;
+    contacts_declare(problem, last - first, dimension[first], row.data() + first,
+                     {model.data() + first, mu.data() + first, nullptr, facets.data() + first});
+  }
+  for (const Contact& c : problem.contacts)
+    if (c.model == MLCP_FRICTION_BOX) rows_set_bounds(problem, c.row + 1, c.dimension - 1, &lo[c.row + 1], &hi[c.row + 1]);
+  const std::int32_t couplings = from.count(2 * sizeof(std::int32_t));
+  for (std::int32_t c = 0; c < couplings; ++c) {
+    const std::int32_t coupled = from.i32(), normal = from.i32();
+    rows_set_findex(problem, coupled, 1, &normal);
+  }
+}
+
 bool read_mask(ByteReader& from, std::uint32_t version, std::int32_t rows, Mask& mask) {
   if (!read_flag(from)) return false;
   const bool keyed = read_flag(from), moved = version >= 2 && read_flag(from);
@@ -118,12 +152,16 @@ bool read_mask(ByteReader& from, std::uint32_t version, std::int32_t rows, Mask&
     from.f64s(rows, mask.impulse);
     check_finite("impulses", mask.impulse.data(), rows);
   }
+  if (version >= 2 && read_flag(from)) {
+    from.f64s(rows, mask.slip);
+    check_finite("slip", mask.slip.data(), rows);
+  }
   return true;
 }
 
 /// Each index once; whether it is an order for the pattern, the next analysis tells.
 void read_ordering(ByteReader& from, Problem& problem, Array<std::int32_t>& ordering) {
-  const std::int32_t size = problem.n() + problem.m();
+  const std::int64_t size = problem.n() + std::int64_t(problem.m()) * (problem.contacts.empty() ? 1 : most_rows_inside);
   from.i32s(from.count(sizeof(std::int32_t)), ordering);
   problem.work.marker.start(size);
   for (std::int32_t i : ordering)
@@ -137,6 +175,8 @@ void read_sections(const Memory& memory, ByteReader& from, std::uint32_t version
   read_bodies(memory, from, scratch, out.problem, place);
   place = {"rows"};
   read_rows(memory, from, scratch, out.problem);
+  place = {"contacts"};
+  if (version >= 2) read_contacts(memory, from, out.problem);
   place = {"enabled mask"};
   out.has_enabled = read_mask(from, version, out.problem.m(), out.enabled);
   place = {"start mask"};

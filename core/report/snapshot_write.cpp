@@ -22,6 +22,8 @@ void write_settings(const Settings& settings, ByteWriter& to) {
   to.i32(settings.canonical);
   to.i32(settings.warm_start);
   to.i32(settings.num_threads);
+  to.i32(settings.facets);
+  to.i32(settings.max_shifts);
 }
 
 /// The mass as it was given. The caller's entries stand first in every column, in his order.
@@ -73,6 +75,22 @@ void write_rows(const Problem& problem, ByteWriter& to) {
   write_matrix(problem.compliance, to);
 }
 
+void write_contacts(const Problem& problem, ByteWriter& to) {
+  to.u32(static_cast<std::uint32_t>(problem.contacts.size()));
+  for (const Contact& c : problem.contacts) {
+    to.i32(c.row);
+    to.i32(c.dimension);
+    to.i32(c.model);
+    to.i32(c.facets);
+    to.f64(c.mu);
+  }
+  to.u32(static_cast<std::uint32_t>(problem.couplings.size()));
+  for (const Coupling& c : problem.couplings) {
+    to.i32(c.row);
+    to.i32(c.normal);
+  }
+}
+
 void write_mask(const Mask* mask, ByteWriter& to) {
   to.u8(mask ? 1 : 0);
   if (!mask) return;
@@ -81,10 +99,14 @@ void write_mask(const Mask* mask, ByteWriter& to) {
   to.bytes(mask->state.span());
   to.u64s(mask->key.span());
   to.f64s(mask->impulse.span());
+  to.u8(mask->slip.empty() ? 0 : 1);
+  to.f64s(mask->slip.span());
 }
 
+/// With contacts the order is that of the rows inside, which are more.
 bool fits(std::span<const std::int32_t> ordering, const Problem& problem) {
-  return std::all_of(ordering.begin(), ordering.end(), [&](std::int32_t i) { return i < problem.n() + problem.m(); });
+  return !problem.contacts.empty() ||
+         std::all_of(ordering.begin(), ordering.end(), [&](std::int32_t i) { return i < problem.n() + problem.m(); });
 }
 
 }  // namespace
@@ -94,6 +116,7 @@ void write_payload(const SnapshotSource& source, Array<std::uint8_t>& out) {
   write_settings(source.settings, to);
   write_bodies(source.problem, to);
   write_rows(source.problem, to);
+  write_contacts(source.problem, to);
   write_mask(source.enabled, to);
   write_mask(source.start, to);
   const auto ordering = fits(source.ordering, source.problem) ? source.ordering : std::span<const std::int32_t>{};

@@ -36,6 +36,11 @@ const char* state_name(mlcp_row_state state) {
   return state < 4 ? names[state] : "?";
 }
 
+const char* contact_state_name(mlcp_contact_state state) {
+  constexpr const char* names[] = {"disabled", "open", "sticking", "sliding"};
+  return state < 4 ? names[state] : "?";
+}
+
 struct Certificate {
   std::span<const std::int32_t> rows;
   std::span<const double> y;
@@ -66,6 +71,20 @@ Json counts(const ProblemFile& file, const mlcp_report& report) {
           {"factor_entries", report.factor_entries}};
 }
 
+Json contact_numbers(const ProblemFile& file, const mlcp_report& report) {
+  const auto state = lent(file, mlcp_solver_contact_states);
+  Json names = Json::array();
+  for (const mlcp_contact_state s : state) names.push_back(contact_state_name(s));
+  return {{"open", report.contacts_open},
+          {"sticking", report.contacts_sticking},
+          {"sliding", report.contacts_sliding},
+          {"generators", report.generators},
+          {"facets", report.facets},
+          {"shift_iterations", report.shift_iterations},
+          {"islands_by_lemke", report.islands_by_lemke},
+          {"states", names}};
+}
+
 void print(std::string& text, const char* format, ...) __attribute__((format(printf, 2, 3)));
 void print(std::string& text, const char* format, ...) {
   char line[256];
@@ -86,6 +105,8 @@ bool Answer::reduced() const { return mlcp_problem_velocity_count(file_.problem.
 
 std::int32_t Answer::worst_body() const { return reduced() ? file_row(report_.worst_body) : report_.worst_body; }
 
+bool Answer::has_contacts() const { return mlcp_problem_contact_count(file_.problem.get()) > 0; }
+
 std::string Answer::json() const {
   const auto v = lent(file_, mlcp_solver_velocities);
   const auto impulses = lent(file_, mlcp_solver_impulses);
@@ -104,8 +125,12 @@ std::string Answer::json() const {
                     {"worst_row", file_row(report_.worst_row)},
                     {"worst_velocity", report_.worst_velocity},
                     {"momentum_residual", report_.momentum_residual},
-                    {"constraint_residual", report_.constraint_residual}};
+                    {"constraint_residual", report_.constraint_residual},
+                    {"cones", report_.cone_error},
+                    {"worst_contact", report_.worst_contact},
+                    {"cone_residual", report_.cone_residual}};
   json["counts"] = counts(file_, report_);
+  if (has_contacts()) json["friction"] = contact_numbers(file_, report_);
   json["times"] = {{"analyze", report_.seconds_analyze},
                    {"factorize", report_.seconds_factorize},
                    {"solve", report_.seconds_solve},
@@ -145,6 +170,9 @@ std::string Answer::text(bool trace) const {
         r.active_rows, r.redundant_rows, r.islands);
   if (r.islands_failed > 0) print(text, ", %d not solved", r.islands_failed);
   text += '\n';
+  if (has_contacts())
+    print(text, "contacts   %d open, %d sticking, %d sliding; cones %.1e (contact %d), %d solves, up to %d facets\n", r.contacts_open,
+          r.contacts_sticking, r.contacts_sliding, r.cone_error, r.worst_contact, r.shift_iterations, r.facets);
   print(text, "work       %lld factorizations, %lld toggles, %lld refinements, %lld entries in the factor\n",
         static_cast<long long>(r.factorizations), static_cast<long long>(r.toggles), static_cast<long long>(r.refinements),
         static_cast<long long>(r.factor_entries));

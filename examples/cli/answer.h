@@ -18,6 +18,7 @@ class Answer {
 
  private:
   bool reduced() const;
+  bool has_contacts() const;
   std::int32_t file_row(std::int32_t row) const;
   std::int32_t worst_body() const;
 

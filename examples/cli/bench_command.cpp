@@ -57,6 +57,7 @@ std::vector<Candidate> candidates(const ProblemFile& file, const BenchOptions& o
       candidate.settings.method = method;
       candidate.settings.tolerance = tolerance;
       candidate.settings.trace = 0;
+      candidate.settings.warm_start = 0;  // a known pattern is not a warm start
       if (options.max_seconds) candidate.settings.max_seconds = *options.max_seconds;
       mlcp_report_init(&candidate.report, sizeof candidate.report);
     }

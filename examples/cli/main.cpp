@@ -23,11 +23,13 @@ void add_output(CLI::App& command, std::string& output) {
 
 void add_solve(CLI::App& app, cli::SolveOptions& options) {
   CLI::App& solve = *app.add_subcommand("solve", "Solve a problem; exit 0: solved, 1: a limit, 2: no solution, 3: bad input");
-  solve.add_option("PROBLEM", options.problem, "Folder of Matrix Market files, or snapshot")->required();
+  solve.add_option("PROBLEM", options.problem, "Folder of Matrix Market files, snapshot or FCLIB file")->required();
   solve.add_option("--method", options.method, "auto or simplex [auto]");
   solve.add_option("--tolerance", options.tolerance, "On the largest relative error [1e-9]");
   solve.add_option("--max-seconds", options.max_seconds, "Give up after that time [never]");
-  solve.add_option("--friction", options.friction, "none: normal and plain rows only")->capture_default_str();
+  solve.add_option("--friction", options.friction,
+                   "none, convex, coulomb, or box: bounds mu times the normal impulse [a snapshot's own, else none]");
+  solve.add_option("--facets", options.facets, "Of the pyramids in space, at least 3 [the circular cone, to the tolerance]");
   solve.add_option("--pivot-rule", options.pivot_rule, "dual or printed [dual]");
   solve.add_option("--refactorize", options.refactorize, "when-needed or always [when-needed]");
   solve.add_flag("--trace", options.trace, "Print every pivot");
@@ -68,7 +70,7 @@ int main(int argc, char** argv) {
 
   std::string info_path, info_output = "text";
   CLI::App& info = *app.add_subcommand("info", "Sizes, islands, rank, scaling, what is unusual about a problem");
-  info.add_option("PROBLEM", info_path, "Folder of Matrix Market files, or snapshot")->required();
+  info.add_option("PROBLEM", info_path, "Folder of Matrix Market files, snapshot or FCLIB file")->required();
   add_output(info, info_output);
   info.footer(counting);
 
@@ -76,9 +78,9 @@ int main(int argc, char** argv) {
   add_bench(app, bench);
 
   std::string from, to;
-  CLI::App& convert = *app.add_subcommand("convert", "Between folder and snapshot");
-  convert.add_option("IN", from, "Folder or snapshot")->required();
-  convert.add_option("OUT", to, "Snapshot if it ends in .mlcp, else a new folder")->required();
+  CLI::App& convert = *app.add_subcommand("convert", "Between folder, snapshot and FCLIB file");
+  convert.add_option("IN", from, "Folder, snapshot or FCLIB file")->required();
+  convert.add_option("OUT", to, "Snapshot if it ends in .mlcp, FCLIB file if in .hdf5, else a new folder")->required();
   convert.footer(std::string("A folder has no prescribed bodies: their velocities go into c and d, and v is without them.\n"
                              "Refused: disabled rows, rows neither bilateral nor unilateral, compliance beside velocities.\n") +
                  counting);

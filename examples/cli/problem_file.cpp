@@ -1,7 +1,10 @@
 #include "problem_file.h"
 
+#include <array>
+#include <fstream>
 #include <numeric>
 
+#include "fclib_file.h"
 #include "problem_folder.h"
 
 namespace cli {
@@ -25,12 +28,32 @@ ProblemFile read_snapshot(const std::filesystem::path& path) {
   return file;
 }
 
+/// The model asked for, at every contact of a snapshot.
+void set_friction(const ProblemFile& file, const Friction& friction) {
+  const std::int32_t count = mlcp_problem_contact_count(file.problem.get());
+  const std::vector<mlcp_friction> model(static_cast<std::size_t>(count), *friction.model);
+  const std::vector<std::int32_t> facets(static_cast<std::size_t>(count), friction.facets);
+  handles::check(mlcp_problem_contacts_set_friction(file.problem.get(), 0, count, model.data(), nullptr, nullptr, facets.data()),
+                 file.problem);
+}
+
 }  // namespace
 
-ProblemFile read_problem(const std::filesystem::path& path) {
-  if (std::filesystem::is_directory(path)) return read_folder(path);
+bool is_fclib(const std::filesystem::path& path) {
+  constexpr std::array<char, 8> magic = {'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};
+  std::array<char, 8> first{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(first.data(), first.size());
+  return file && first == magic;
+}
+
+ProblemFile read_problem(const std::filesystem::path& path, const Friction& friction) {
+  if (std::filesystem::is_directory(path)) return read_folder(path, friction);
   if (!std::filesystem::exists(path)) throw std::runtime_error(path.string() + ": no such file or folder");
-  return read_snapshot(path);
+  if (is_fclib(path)) return read_fclib(path, friction);
+  ProblemFile file = read_snapshot(path);
+  if (friction.model) set_friction(file, friction);
+  return file;
 }
 
 }  // namespace cli

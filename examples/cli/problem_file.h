@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "../scenes/handles.h"
@@ -15,7 +16,13 @@ struct ProblemFile {
   std::vector<std::int32_t> file_row;  // of every row of the problem; rows of the file that are not there were left out
 };
 
-/// Reads a folder of Matrix Market files or a snapshot. Throws std::runtime_error naming file and cause.
-ProblemFile read_problem(const std::filesystem::path& path);
+/// Friction for all contacts of a file. Without a model a snapshot keeps its own, and files that name none are read without friction.
+struct Friction {
+  std::optional<mlcp_friction> model;
+  std::int32_t facets = 0;
+};
+
+/// Reads a folder of Matrix Market files, a snapshot or an FCLIB file. Throws std::runtime_error naming file and cause.
+ProblemFile read_problem(const std::filesystem::path& path, const Friction& friction = {});
 
 }  // namespace cli

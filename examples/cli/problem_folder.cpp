@@ -10,13 +10,13 @@
 #include <nlohmann/json.hpp>
 
 #include "matrix_market.h"
+#include "problem_form.h"
 #include "text_file.h"
 
 namespace cli {
 namespace {
 
 namespace fs = std::filesystem;
-using handles::check;
 
 struct Meta {
   bool reduced = false;
@@ -116,78 +116,6 @@ std::vector<std::uint64_t> read_keys(const fs::path& folder, std::int32_t rows) 
   return spread(*matrix, rows, whole);
 }
 
-/// Which rows of the file are in the problem: all but the tangent rows of contacts. Fills file.file_row; returns for each row
-/// of the file its index in the problem or −1.
-std::vector<std::int32_t> choose_rows(const fs::path& folder, const Meta& meta, std::int32_t bilateral, ProblemFile& file) {
-  const bool grouped = meta.dimension > 1 && meta.contacts > 0 && (meta.friction || find_matrix(folder, "mu"));
-  std::int64_t end_of_contacts = bilateral;
-  if (grouped) {
-    end_of_contacts += static_cast<std::int64_t>(meta.contacts) * meta.dimension;
-    if (end_of_contacts > file.file_rows) {
-      throw std::runtime_error((folder / "meta.json").string() + ": contacts times dim is more than there are rows");
-    }
-    check_vector(require_matrix(folder, "mu"), meta.contacts);
-  }
-  std::vector<std::int32_t> new_index(static_cast<std::size_t>(file.file_rows), -1);
-  for (std::int32_t i = 0; i < file.file_rows; ++i) {
-    const bool in_group = i >= bilateral && i < end_of_contacts;
-    if (in_group && (i - bilateral) % meta.dimension != 0) continue;
-    new_index[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(file.file_row.size());
-    file.file_row.push_back(i);
-  }
-  return new_index;
-}
-
-/// The numbers of the rows that were chosen, in the library's signs: r = −`shift`.
-struct RowNumbers {
-  std::vector<double> r, lo;
-  std::vector<std::uint64_t> key;
-
-  RowNumbers(const std::vector<std::int32_t>& file_row, std::int32_t bilateral, const std::vector<double>& shift,
-             const std::vector<std::uint64_t>& keys) {
-    for (const std::int32_t i : file_row) {
-      r.push_back(0.0 - shift[static_cast<std::size_t>(i)]);
-      lo.push_back(i < bilateral ? -INFINITY : 0.0);
-      key.push_back(keys[static_cast<std::size_t>(i)]);
-    }
-  }
-};
-
-void add_rows(ProblemFile& file, const Compressed& jacobian, const RowNumbers& rows) {
-  const auto count = static_cast<std::int32_t>(rows.r.size());
-  if (count == 0) return;
-  check(mlcp_problem_rows_add_csr(file.problem.get(), count, jacobian.pointers.data(), jacobian.indices.data(),
-                                  jacobian.values.data(), rows.r.data(), rows.lo.data(), nullptr, nullptr, rows.key.data(),
-                                  nullptr),
-        file.problem);
-}
-
-/// C above D.
-Matrix stack(Matrix upper, const Matrix& lower) {
-  for (std::size_t e = 0; e < lower.value.size(); ++e) upper.add(upper.rows + lower.row[e], lower.column[e], lower.value[e]);
-  upper.rows += lower.rows;
-  return upper;
-}
-
-/// The library's own words on what stands in a file. It counts from 0, and only the rows that were chosen.
-[[noreturn]] void refuse(const Matrix& matrix, const ProblemFile& file) {
-  const bool whole = file.file_row.size() == static_cast<std::size_t>(file.file_rows);
-  throw std::runtime_error(matrix.source + ": " + mlcp_problem_error(file.problem.get()) + " (counted from 0" +
-                           (whole ? ")" : ", without the rows of friction)"));
-}
-
-void add_body(const fs::path& folder, const Matrix& mass, ProblemFile& file) {
-  const std::vector<double> k = vector_or_zero(folder, "k", mass.rows);
-  if (mass.rows == 0) return;
-  const Compressed columns = compress_columns(mass);
-  const mlcp_triangle triangle = mass.symmetric ? MLCP_LOWER : MLCP_FULL;
-  if (mlcp_problem_body_add_sparse(file.problem.get(), mass.rows, columns.pointers.data(), columns.indices.data(),
-                                   columns.values.data(), triangle, nullptr) != MLCP_OK) {
-    refuse(mass, file);
-  }
-  check(mlcp_problem_set_momentum(file.problem.get(), 0, mass.rows, k.data()), file.problem);
-}
-
 Matrix matrix_of_rows(const fs::path& folder, const std::string& name, std::int32_t columns) {
   std::optional<Matrix> matrix = find_matrix(folder, name);
   if (!matrix) {
@@ -200,51 +128,57 @@ Matrix matrix_of_rows(const fs::path& folder, const std::string& name, std::int3
   return full;
 }
 
-void read_global(const fs::path& folder, const Meta& meta, ProblemFile& file) {
-  const Matrix mass = require_matrix(folder, "M");
-  check_size(mass, mass.rows, mass.rows);
-  add_body(folder, mass, file);
-
-  const Matrix c_rows = matrix_of_rows(folder, "C", mass.rows), d_rows = matrix_of_rows(folder, "D", mass.rows);
-  std::vector<double> shift = vector_or_zero(folder, "c", c_rows.rows);
-  const std::vector<double> d = vector_or_zero(folder, "d", d_rows.rows);
-  shift.insert(shift.end(), d.begin(), d.end());
-  file.file_rows = c_rows.rows + d_rows.rows;
-  const std::vector<std::int32_t> new_index = choose_rows(folder, meta, c_rows.rows, file);
-  const auto count = static_cast<std::int32_t>(file.file_row.size());
-  const Compressed jacobian = compress_rows(select_rows(stack(c_rows, d_rows), new_index, count));
-  add_rows(file, jacobian, RowNumbers(file.file_row, c_rows.rows, shift, read_keys(folder, file.file_rows)));
+/// C above D.
+Matrix stack(Matrix upper, const Matrix& lower) {
+  for (std::size_t e = 0; e < lower.value.size(); ++e) upper.add(upper.rows + lower.row[e], lower.column[e], lower.value[e]);
+  upper.rows += lower.rows;
+  return upper;
 }
 
-void read_reduced(const fs::path& folder, const Meta& meta, ProblemFile& file) {
-  const Matrix a = require_matrix(folder, "A");
-  check_size(a, a.rows, a.rows);
-  compress_columns(a);
-  if (meta.bilateral > a.rows) throw std::runtime_error((folder / "meta.json").string() + ": nC is more than there are rows");
-  file.file_rows = a.rows;
-  const std::vector<std::int32_t> new_index = choose_rows(folder, meta, meta.bilateral, file);
-  const auto count = static_cast<std::int32_t>(file.file_row.size());
-  Compressed empty;
-  empty.pointers.assign(static_cast<std::size_t>(count) + 1, 0);
-  add_rows(file, empty,
-           RowNumbers(file.file_row, meta.bilateral, vector_or_zero(folder, "b", a.rows), read_keys(folder, a.rows)));
-  const Compressed columns = compress_columns(select_rows_and_columns(a, new_index, count));
-  if (mlcp_problem_set_compliance_matrix(file.problem.get(), count, columns.pointers.data(), columns.indices.data(),
-                                         columns.values.data(), a.symmetric ? MLCP_LOWER : MLCP_FULL) != MLCP_OK) {
-    refuse(a, file);
+void read_global(const fs::path& folder, ProblemForm& form) {
+  form.mass = require_matrix(folder, "M");
+  check_size(form.mass, form.mass.rows, form.mass.rows);
+  form.k = vector_or_zero(folder, "k", form.mass.rows);
+  const Matrix c_rows = matrix_of_rows(folder, "C", form.mass.rows), d_rows = matrix_of_rows(folder, "D", form.mass.rows);
+  form.shift = vector_or_zero(folder, "c", c_rows.rows);
+  const std::vector<double> d = vector_or_zero(folder, "d", d_rows.rows);
+  form.shift.insert(form.shift.end(), d.begin(), d.end());
+  form.bilateral = c_rows.rows;
+  form.jacobian = stack(c_rows, d_rows);
+}
+
+void read_reduced(const fs::path& folder, ProblemForm& form) {
+  form.a = require_matrix(folder, "A");
+  check_size(form.a, form.a.rows, form.a.rows);
+  compress_columns(form.a);
+  form.shift = vector_or_zero(folder, "b", form.a.rows);
+}
+
+/// Contacts of the file, if its rows come in groups.
+void read_contacts(const fs::path& folder, const Meta& meta, ProblemForm& form) {
+  if (meta.dimension < 2 || meta.contacts == 0 || !(meta.friction || find_matrix(folder, "mu"))) return;
+  form.contacts = meta.contacts;
+  form.dimension = meta.dimension;
+  if (form.end_of_contacts() > form.rows()) {
+    throw std::runtime_error((folder / "meta.json").string() + ": contacts times dim is more than there are rows");
   }
+  const Matrix mu = require_matrix(folder, "mu");
+  form.mu = spread(mu, meta.contacts, mu.value);
 }
 
 }  // namespace
 
-ProblemFile read_folder(const fs::path& folder) {
+ProblemFile read_folder(const fs::path& folder, const Friction& friction) {
   const Meta meta = read_meta(folder);
-  ProblemFile file;
-  file.problem = handles::make_problem();
-  file.solver = handles::make_solver();
-  if (meta.reduced) read_reduced(folder, meta, file);
-  else read_global(folder, meta, file);
-  return file;
+  ProblemForm form;
+  form.reduced = meta.reduced;
+  form.bilateral = meta.bilateral;
+  if (meta.reduced) read_reduced(folder, form);
+  else read_global(folder, form);
+  if (form.bilateral > form.rows()) throw std::runtime_error((folder / "meta.json").string() + ": nC is more than there are rows");
+  read_contacts(folder, meta, form);
+  form.key = read_keys(folder, form.rows());
+  return make_problem(form, friction);
 }
 
 }  // namespace cli

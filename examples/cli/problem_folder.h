@@ -11,13 +11,12 @@
 /// for each group. `key` gives every row an identity over time, −1: none.
 namespace cli {
 
-/// Reads the frictionless version: the tangent rows of contacts are left out.
-ProblemFile read_folder(const std::filesystem::path& folder);
+/// Reads contacts with the friction asked for; without any their tangent rows are left out. Rolling rows, `dim` > 3, always are.
+ProblemFile read_folder(const std::filesystem::path& folder, const Friction& friction = {});
 
 /// Writes a problem as a folder, which must not be there yet or be empty. Bilateral rows come first, for that is where the form
 /// has them; apart from that the order stays. Prescribed bodies go: their velocities move into c and d. Throws
-/// std::runtime_error for what the form cannot hold: rows that are neither bilateral nor unilateral (0 ≤ γ), compliance beside
-/// velocities.
+/// std::runtime_error for what the form cannot hold, see form_of.
 void write_folder(const std::filesystem::path& folder, const handles::Problem& problem);
 
 }  // namespace cli

@@ -18,6 +18,8 @@ struct Name {
 };
 
 constexpr Name methods[] = {{"auto", MLCP_METHOD_AUTO}, {"simplex", MLCP_METHOD_SIMPLEX}};
+constexpr Name frictions[] = {{"none", MLCP_FRICTION_NONE}, {"convex", MLCP_FRICTION_CONVEX}, {"coulomb", MLCP_FRICTION_COULOMB},
+                              {"box", MLCP_FRICTION_FINDEX}};
 constexpr Name pivot_rules[] = {{"dual", MLCP_PIVOT_DUAL}, {"printed", MLCP_PIVOT_PRINTED}};
 constexpr Name refactorize_names[] = {{"when-needed", MLCP_REFACTORIZE_WHEN_NEEDED}, {"always", MLCP_REFACTORIZE_ALWAYS}};
 
@@ -32,13 +34,20 @@ std::int32_t value_of(const char* option, const std::string& text, const Name (&
 }
 
 void apply(const SolveOptions& options, mlcp_settings& settings) {
-  if (options.friction != "none") value_of("--friction", options.friction, {Name{"none", 0}});
   if (options.method) settings.method = value_of("--method", *options.method, methods);
   if (options.pivot_rule) settings.pivot_rule = value_of("--pivot-rule", *options.pivot_rule, pivot_rules);
   if (options.refactorize) settings.refactorize = value_of("--refactorize", *options.refactorize, refactorize_names);
   if (options.tolerance) settings.tolerance = *options.tolerance;
   if (options.max_seconds) settings.max_seconds = *options.max_seconds;
   if (options.trace) settings.trace = 1;
+  if (options.facets) settings.facets = *options.facets;
+}
+
+Friction friction_of(const SolveOptions& options) {
+  Friction friction;
+  if (options.friction) friction.model = value_of("--friction", *options.friction, frictions);
+  friction.facets = options.facets.value_or(0);
+  return friction;
 }
 
 Exit exit_of(mlcp_outcome outcome) {
@@ -60,8 +69,9 @@ Exit exit_of(mlcp_outcome outcome) {
 Exit run_solve(const SolveOptions& options) {
   mlcp_settings settings;
   mlcp_settings_init(&settings, sizeof settings);
+  const Friction friction = friction_of(options);
   apply(options, settings);  // complains about the options before a large file is read
-  const ProblemFile file = read_problem(options.problem);
+  const ProblemFile file = read_problem(options.problem, friction);
   check(mlcp_solver_get_settings(file.solver.get(), &settings));
   apply(options, settings);
   Watch watch(settings);

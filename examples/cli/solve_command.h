@@ -10,7 +10,8 @@ struct SolveOptions {
   std::string problem;
   std::optional<std::string> method, pivot_rule, refactorize;
   std::optional<double> tolerance, max_seconds;
-  std::string friction = "none";
+  std::optional<std::string> friction;
+  std::optional<std::int32_t> facets;
   std::string output = "text";
   bool trace = false;
 };

@@ -87,7 +87,7 @@ TEST_F(SnapshotPayload, RefusalsNameSectionAndOffset) {
   const std::string last = std::to_string(payload.size() - 4 * (std::size_t(problem.n()) + problem.m()));
   EXPECT_EQ(refusal(payload.span().first(payload.size() - 1)),
             "the snapshot is not legal: ordering, at byte " + last + " unpacked: the snapshot ends too early");
-  const std::size_t settings = 4 * 4 + 4 * 8 + 4 * 4, kind = settings + 4 + 4;
+  const std::size_t settings = 6 * 4 + 4 * 8 + 4 * 4, kind = settings + 4 + 4;
   payload[kind] = 9;
   EXPECT_EQ(refusal(payload.span()), "the snapshot is not legal: body 0, at byte " + std::to_string(kind + 2) +
                                          " unpacked: a mass is stored in way 9");

@@ -216,8 +216,6 @@ def _in_turns(runs, how, turns):
 
 def _threads(library, problem, turns):
     title = f"two threads against one, {problem.name}: times faster"
-    if not library.has_threads():
-        return Figure(title, "≥ 1.6", "same bits", "left out: this library has no threads")
     runs = [lib.Run(library, problem.handle, problem.n, problem.m, DEFAULT, TOLERANCE, threads) for threads in (1, 2)]
     one, two = _in_turns(runs, lib.KNOWN, turns)
     answers = [run.answer() for run in runs]

@@ -31,7 +31,7 @@ class Library:
         self._lib = lib = c.CDLL(str(path))
         handle, i32, text, doubles = c.c_void_p, c.c_int32, c.c_char_p, c.POINTER(c.c_double)
         for name, result, *arguments in (
-                ("bench_error", text), ("bench_has_threads", c.c_int), ("mlcp_version", text), ("mlcp_method_text", text, i32),
+                ("bench_error", text), ("mlcp_version", text), ("mlcp_method_text", text, i32),
                 ("bench_scene", handle, text, i32), ("bench_read", handle, text),
                 ("bench_record_pile", c.c_int, i32, i32, text),
                 ("mlcp_problem_create", i32, handle, handle), ("mlcp_problem_error", text, handle),
@@ -68,9 +68,6 @@ class Library:
 
     def version(self):
         return self._lib.mlcp_version().decode()
-
-    def has_threads(self):
-        return bool(self._lib.bench_has_threads())
 
     def rows(self, handle):
         return self._lib.mlcp_problem_row_count(handle)

@@ -46,22 +46,17 @@ Settings settings_of(std::int32_t method, double tolerance = 1e-9, std::int32_t 
   mlcp_settings_init(&settings, sizeof settings);
   settings.method = method;
   settings.tolerance = tolerance;
-  if constexpr (requires { settings.num_threads; }) settings.num_threads = threads;
+  settings.num_threads = threads;
   return settings;
 }
 
 /// A known pattern is not a warm start.
-template <class Settings>
-Settings without_history(Settings settings) {
-  if constexpr (requires { settings.warm_start; }) settings.warm_start = 0;
+mlcp_settings without_history(mlcp_settings settings) {
+  settings.warm_start = 0;
   return settings;
 }
 
 }  // namespace
-
-int bench_has_threads() {
-  return []<class Settings>(const Settings& settings) { return requires { settings.num_threads; }; }(mlcp_settings{});
-}
 
 const char* bench_error() { return last_error.c_str(); }
 

@@ -8,8 +8,6 @@
 #define BENCH_API extern "C" __attribute__((visibility("default")))
 
 BENCH_API const char* bench_error();
-/// 1 if the library's settings have a number of threads.
-BENCH_API int bench_has_threads();
 
 /// Problems; freed by mlcp_problem_destroy.
 BENCH_API mlcp_problem* bench_scene(const char* family, std::int32_t size);

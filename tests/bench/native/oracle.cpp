@@ -15,7 +15,7 @@ Oracle::Oracle(const mlcp_problem* problem, const mlcp_mask* final_mask) : probl
 }
 
 void Oracle::analyze() {
-  analysis_.run(problem_->problem, &active_, {});
+  analysis_.run(problem_->problem, &active_, true, {});
 }
 
 void Oracle::factorize_and_solve() {
