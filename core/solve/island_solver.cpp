@@ -119,8 +119,8 @@ void finish_island(const SolveInput& input, Basis& basis, Watch& watch, std::int
   if (end.outcome != MLCP_SOLVED && end.outcome != MLCP_ITERATION_LIMIT) return;
   if (end.crowded || end.method == MLCP_METHOD_PGS) return;
   const Island& island = basis.factor.symbolic().islands[index];
-  const bool dependent = mark_redundant(island, basis, end.epsilon, input.problem.n(), redundant, end.counts);
-  if (input.settings.impulses != MLCP_IMPULSES_LEAST_NORM || !dependent || end.outcome != MLCP_SOLVED) return;
+  const bool shared = mark_redundant(island, basis, end.epsilon, input.problem.n(), redundant, end.counts);
+  if (input.settings.impulses != MLCP_IMPULSES_LEAST_NORM || !shared || end.outcome != MLCP_SOLVED) return;
   Limits limits(watch, index, 1, 50 * (static_cast<std::int64_t>(island.last_row - island.first_row) + 10));
   limits.restart(end.counts);
   Newton newton(basis, limits, end.counts);

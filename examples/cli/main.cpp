@@ -24,7 +24,7 @@ void add_output(CLI::App& command, std::string& output) {
 void add_solve(CLI::App& app, cli::SolveOptions& options) {
   CLI::App& solve = *app.add_subcommand("solve", "Solve a problem; exit 0: solved, 1: a limit, 2: no solution, 3: bad input");
   solve.add_option("PROBLEM", options.problem, "Folder of Matrix Market files, snapshot or FCLIB file")->required();
-  solve.add_option("--method", options.method, "auto or simplex [auto]");
+  solve.add_option("--method", options.method, "auto, simplex, newton or pgs [auto]");
   solve.add_option("--tolerance", options.tolerance, "On the largest relative error [1e-9]");
   solve.add_option("--max-seconds", options.max_seconds, "Give up after that time [never]");
   solve.add_option("--friction", options.friction,

@@ -17,7 +17,7 @@ struct Name {
   std::int32_t value;
 };
 
-constexpr Name methods[] = {{"auto", MLCP_METHOD_AUTO}, {"simplex", MLCP_METHOD_SIMPLEX}};
+constexpr Name methods[] = {{"auto", MLCP_METHOD_AUTO}, {"simplex", MLCP_METHOD_SIMPLEX}, {"newton", MLCP_METHOD_NEWTON}, {"pgs", MLCP_METHOD_PGS}};
 constexpr Name frictions[] = {{"none", MLCP_FRICTION_NONE}, {"convex", MLCP_FRICTION_CONVEX}, {"coulomb", MLCP_FRICTION_COULOMB},
                               {"box", MLCP_FRICTION_FINDEX}};
 constexpr Name pivot_rules[] = {{"dual", MLCP_PIVOT_DUAL}, {"printed", MLCP_PIVOT_PRINTED}};

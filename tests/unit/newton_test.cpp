@@ -1,0 +1,152 @@
+// Newton on what breaks active-set guesses: dependent rows, crowded islands, ties, and problems without a solution.
+#include "solve/newton.h"
+
+#include <gtest/gtest.h>
+
+#include "assemble/compliance.h"
+#include "support/random_problem.h"
+#include "support/solution.h"
+
+namespace support {
+namespace {
+
+mlcp::Settings with(mlcp_method method) {
+  mlcp::Settings s = mlcp::default_settings();
+  s.method = method;
+  return s;
+}
+
+/// Boxes of three velocities on each other, with four contacts to the one below.
+mlcp::Problem stack(int boxes, int contacts = 4) {
+  mlcp::Problem p = empty_problem();
+  Eigen::VectorXd k = Eigen::VectorXd::Zero(3 * boxes);
+  for (int b = 0; b < boxes; ++b) {
+    add_body(p, 3, 1 + 0.1 * b);
+    k[3 * b] = -9.81;
+  }
+  set_k(p, k);
+  for (int b = 0; b < boxes; ++b)
+    for (int c = 0; c < contacts; ++c) {
+      const double x = std::cos(1.3 * c), y = std::sin(2.1 * c);
+      std::vector<Entry> entries{{3 * b, 1}, {3 * b + 1, x}, {3 * b + 2, y}};
+      if (b > 0)
+        for (int j = 0; j < 3; ++j) entries.push_back({3 * (b - 1) + j, -entries[j].value});
+      add_row(p, entries);
+    }
+  return p;
+}
+
+TEST(Newton, ChainsAgreeWithTheSimplex) {
+  for (int seed = 0; seed < 200; ++seed) {
+    Random random(seed);
+    const mlcp::Problem p = random_chain(random, random.integer(2, 40), 3, 1);
+    const Solution exact = solve(p, settings()), s = solve(p, with(MLCP_METHOD_NEWTON));
+    ASSERT_EQ(fault(dense(p), s), "") << "seed " << seed;
+    ASSERT_EQ(s.report.method, MLCP_METHOD_NEWTON);
+    ASSERT_LE(difference(s.v, exact.v), 1e-10) << "seed " << seed;
+    ASSERT_LT(s.report.pivots, exact.report.pivots + 20) << "seed " << seed;
+  }
+}
+
+TEST(Newton, DependentContactsOfAStack) {
+  for (const int boxes : {1, 5, 20}) {
+    const mlcp::Problem p = stack(boxes);
+    const Solution s = solve(p, with(MLCP_METHOD_NEWTON));
+    EXPECT_EQ(fault(dense(p), s), "") << boxes;
+    EXPECT_LE(difference(s.v, solve(p, settings()).v), 1e-10) << boxes;
+  }
+}
+
+TEST(Newton, CrowdedStack) {
+  const mlcp::Problem p = stack(6, 12);
+  const Solution s = solve(p, with(MLCP_METHOD_NEWTON));
+  EXPECT_EQ(fault(dense(p), s), "");
+  EXPECT_EQ(s.report.method, MLCP_METHOD_NEWTON);
+  EXPECT_LT(s.report.factor_entries, solve(p, settings()).report.factor_entries) << "rows come before velocities";
+  EXPECT_LE(difference(s.v, solve(p, settings()).v), 1e-9);
+}
+
+/// Random crowded islands: more rows than velocities, most of them near each other.
+TEST(Newton, CrowdedIslandsAgreeWithTheSimplex) {
+  for (int seed = 0; seed < 60; ++seed) {
+    Random random(seed);
+    mlcp::Problem p = empty_problem();
+    const int n = random.integer(6, 16);
+    Eigen::VectorXd k(n), inside(n);
+    for (int j = 0; j < n; ++j) {
+      add_body(p, 1, random.integer(1, 5));
+      k[j] = random.uniform();
+      inside[j] = random.uniform();
+    }
+    set_k(p, k);
+    for (int i = 0; i < 3 * n; ++i) {
+      std::vector<Entry> entries;
+      double r = -random.integer(0, 2) * 0.1;
+      for (int j = 0; j < n; ++j)
+        if (j == i % n || random.chance(0.3)) entries.push_back({j, static_cast<double>(random.integer(-2, 2))});
+      for (const Entry& e : entries) r += e.value * inside[e.column];
+      add_row(p, entries, r);
+    }
+    const Solution s = solve(p, with(MLCP_METHOD_AUTO));
+    ASSERT_EQ(fault(dense(p), s), "") << "seed " << seed;
+    ASSERT_LE(difference(s.v, solve(p, settings()).v), 1e-9) << "seed " << seed;
+  }
+}
+
+TEST(Newton, InfeasibleCrowdedIslandGetsItsCertificate) {
+  mlcp::Problem p = stack(4, 8);
+  add_row(p, {{0, 1}}, 1);
+  add_row(p, {{0, -1}}, 1);
+  for (const mlcp_method method : {MLCP_METHOD_NEWTON, MLCP_METHOD_AUTO}) {
+    const Solution s = solve(p, with(method));
+    EXPECT_EQ(infeasible_fault(dense(p), s), "");
+    EXPECT_EQ(s.report.fallbacks, 1);
+    EXPECT_EQ(s.report.method, MLCP_METHOD_AUTO) << "newton, then the simplex";
+  }
+}
+
+TEST(Newton, LeastNormLoadsTableLegsEqually) {
+  mlcp::Problem p = empty_problem();
+  add_body(p, 3, 1);
+  set_k(p, Eigen::Vector3d(-8, 0, 0));
+  for (const auto& [x, y] : {std::pair{1., 1.}, {1., -1.}, {-1., 1.}, {-1., -1.}}) add_row(p, {{0, 1}, {1, x}, {2, y}});
+  for (const mlcp_method method : {MLCP_METHOD_SIMPLEX, MLCP_METHOD_NEWTON, MLCP_METHOD_AUTO}) {
+    mlcp::Settings how = with(method);
+    how.impulses = MLCP_IMPULSES_LEAST_NORM;
+    const Solution s = solve(p, how);
+    EXPECT_EQ(fault(dense(p), s), "") << method;
+    for (const double gamma : s.gamma) EXPECT_NEAR(gamma, 2, 1e-7) << method;
+  }
+}
+
+TEST(Newton, CanonicalAnswersHaveTheSameBits) {
+  for (int seed = 0; seed < 50; ++seed) {
+    Random random(seed);
+    const mlcp::Problem p = random_chain(random, 20, 3, 1);
+    mlcp::Settings newton = with(MLCP_METHOD_NEWTON), simplex = with(MLCP_METHOD_SIMPLEX);
+    newton.canonical = simplex.canonical = 1;
+    const mlcp::Mask start = random_mask(random, p.m());
+    const Solution a = solve(p, newton), b = solve(p, simplex), c = solve(p, newton, nullptr, &start);
+    ASSERT_EQ(fault(dense(p), a), "") << "seed " << seed;
+    ASSERT_EQ(a.v, b.v) << "seed " << seed;
+    ASSERT_EQ(a.gamma, b.gamma) << "seed " << seed;
+    ASSERT_EQ(a.v, c.v) << "seed " << seed;
+    ASSERT_EQ(a.gamma, c.gamma) << "seed " << seed;
+  }
+}
+
+TEST(Newton, BodyThatLargeImpulsesHoldAtRest) {
+  // ties across a pin: the velocities are 0 because impulses cancel, and every term of a row is rounding
+  mlcp::Problem p = empty_problem();
+  for (int b = 0; b < 3; ++b) add_body(p, 3, 0.3 + b);
+  Eigen::VectorXd k = Eigen::VectorXd::Zero(9);
+  for (int b = 0; b < 3; ++b) k[3 * b + 1] = -9.81 * (0.3 + b) * 0.01;
+  set_k(p, k);
+  for (int j = 0; j < 3; ++j) add_row(p, {{j, 1}, {(j + 1) % 3, 0.1}}, 0, bilateral);
+  for (int b = 1; b < 3; ++b)
+    for (int j = 0; j < 3; ++j) add_row(p, {{3 * b + j, 1}, {3 * (b - 1) + j, -1}, {3 * b + (j + 1) % 3, 0.37}}, 0, bilateral);
+  for (const mlcp_method method : {MLCP_METHOD_SIMPLEX, MLCP_METHOD_NEWTON}) EXPECT_EQ(fault(dense(p), solve(p, with(method))), "") << method;
+}
+
+}  // namespace
+}  // namespace support
