@@ -24,41 +24,38 @@ void Factor::prepare(const KktPattern& pattern, const Symbolic& symbolic, const 
   failed_.resize(size);
 }
 
+/// Left-looking by runs. Column p subtracts what earlier columns of its own run and whole earlier runs do to it: their columns share the
+/// rows from p on, so that Σ_k C(p:,k) c_pk / d_k is summed densely and scattered once.
 FactorStatus Factor::factorize(const Island& island, const std::uint8_t* wanted, double drop, std::int64_t& work) {
-  const std::int64_t* start = symbolic_->pointers.data();
-  const std::int32_t* rows = symbolic_->rows.data();
   std::fill(head_.begin() + island.first, head_.begin() + island.last, -1);
   for (std::int32_t p = island.first; p < island.last; ++p) in_[p] = !pattern_->is_row(p) || wanted[p];
   for (std::int32_t p = island.first; p < island.last; ++p) {
     const bool row = pattern_->is_row(p);
+    const std::int64_t begin = symbolic_->pointers[p], end = symbolic_->pointers[p + 1];
     double d = kkt_->factored[p];
     if (in_[p]) {
       for (std::int32_t t = pattern_->lower_pointers[p]; t < pattern_->lower_pointers[p + 1]; ++t) {
         const std::int32_t q = pattern_->lower_rows[t];
         if (in_[q]) y_[q] = kkt_->lower[t];
       }
+      if (const std::int32_t first = symbolic_->run_start[p]; first < p) subtract_run(first, p, end - begin, p, d, work);
     }
-    // columns k with c_pk ≠ 0: K(p:,p) −= C(p:,k) c_pk / d_k; those whose row p is out just move on
-    for (std::int32_t k = head_[p]; k >= 0;) {
-      const std::int32_t after = next_[k];
-      const std::int64_t t = cursor_[k]++;
-      if (in_[p]) {
-        const double f = values_[t] * inverse_[k];
-        d -= values_[t] * f;
-        for (std::int64_t u = t + 1; u < start[k + 1]; ++u) y_[rows[u]] -= values_[u] * f;
-        work += start[k + 1] - t;
+    // runs whose next row is p: the last column of a run has the rows that all its columns share
+    for (std::int32_t last = head_[p]; last >= 0;) {
+      const std::int32_t after = next_[last];
+      const std::int64_t t = cursor_[last]++, tail = symbolic_->pointers[last + 1] - t - 1;
+      if (in_[p]) subtract_run(symbolic_->run_start[last], last + 1, tail, p, d, work);
+      if (tail > 0) {
+        const std::int32_t q = symbolic_->rows[cursor_[last]];
+        next_[last] = head_[q];
+        head_[q] = last;
       }
-      if (cursor_[k] < start[k + 1]) {
-        const std::int32_t q = rows[cursor_[k]];
-        next_[k] = head_[q];
-        head_[q] = k;
-      }
-      k = after;
+      last = after;
     }
     bool live = in_[p];
     if (live && !row && !(d > 0)) {
       failed_[island.first] = p;
-      for (std::int64_t t = start[p]; t < start[p + 1]; ++t) y_[rows[t]] = 0;
+      for (std::int64_t t = begin; t < end; ++t) y_[symbolic_->rows[t]] = 0;
       return FactorStatus::not_positive_definite;
     }
     if (live && row && !(std::abs(d) > drop * kkt_->a[pattern_->row_ordinal[p]])) {
@@ -66,27 +63,48 @@ FactorStatus Factor::factorize(const Island& island, const std::uint8_t* wanted,
       in_[p] = 0;
       clear_row(p, work);
     }
-    if (!live) {
-      for (std::int64_t t = start[p]; t < start[p + 1]; ++t) {
-        y_[rows[t]] = 0;
-        values_[t] = 0;
-      }
-      pivot_[p] = inverse_[p] = 0;
-      continue;
+    for (std::int64_t t = begin; t < end; ++t) {
+      values_[t] = live ? y_[symbolic_->rows[t]] : 0;
+      y_[symbolic_->rows[t]] = 0;
     }
-    for (std::int64_t t = start[p]; t < start[p + 1]; ++t) {
-      values_[t] = y_[rows[t]];
-      y_[rows[t]] = 0;
-    }
-    pivot_[p] = d;
-    inverse_[p] = 1 / d;
-    if (start[p] < start[p + 1]) {
-      cursor_[p] = start[p];
-      next_[p] = head_[rows[start[p]]];
-      head_[rows[start[p]]] = p;
+    pivot_[p] = live ? d : 0;
+    inverse_[p] = live ? 1 / d : 0;
+    if (symbolic_->run_end[p] == p + 1 && begin < end) {
+      cursor_[p] = begin;
+      next_[p] = head_[symbolic_->rows[begin]];
+      head_[symbolic_->rows[begin]] = p;
     }
   }
   return FactorStatus::ok;
+}
+
+/// Columns first .. last − 1 of one run, which all have row p and behind it the same `tail` rows: y −= Σ_k C(tail,k) c_pk / d_k, and d for
+/// row p itself.
+void Factor::subtract_run(std::int32_t first, std::int32_t last, std::int64_t tail, std::int32_t p, double& d, std::int64_t& work) {
+  constexpr std::int32_t most = 32;  // columns summed at once
+  const std::int64_t end = symbolic_->pointers[last];
+  const std::int32_t* rows = symbolic_->rows.data() + end - tail;
+  double* sum = gathered_.data() + p;  // a column from p on has no more rows than there are positions behind p
+  const double* column[most];
+  double factor[most];
+  while (first < last) {
+    std::int32_t count = 0;
+    for (; first < last && count < most; ++first) {
+      const double* c = values_.data() + symbolic_->pointers[first + 1] - tail;
+      if (!in_[first] || c[-1] == 0) continue;
+      factor[count] = c[-1] * inverse_[first];
+      d -= c[-1] * factor[count];
+      column[count++] = c;
+    }
+    work += count * (tail + 1);
+    if (count == 0 || tail == 0) continue;
+    if (count == 1) {
+      for (std::int64_t i = 0; i < tail; ++i) y_[rows[i]] -= column[0][i] * factor[0];
+      continue;
+    }
+    kernels_->combine(tail, count, column, factor, sum);
+    for (std::int64_t i = 0; i < tail; ++i) y_[rows[i]] -= sum[i];
+  }
 }
 
 /// Nodes before `below` on the tree paths that start at row p's nodes: where L⁻¹ K(:,p) can be nonzero.

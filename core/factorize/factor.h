@@ -31,7 +31,7 @@ class Factor {
 
   /// Factors an island afresh with the rows that wanted[p] names. A row whose pivot is at most drop · a in size depends on the
   /// rows before it and is left out: in(p) is false afterwards.
-  /// cost: Σ over columns of (entries)², left-looking.
+  /// cost: Σ over columns of (entries)², left-looking by runs.
   FactorStatus factorize(const Island& island, const std::uint8_t* wanted, double drop, std::int64_t& work);
 
   /// Takes row p out.  before: in.  after: as if row and column p were not there.  allocates nothing.
@@ -67,6 +67,7 @@ class Factor {
   std::int64_t entry(std::int32_t column, std::int32_t row) const;
   FactorStatus rank_one(std::int32_t p, double sigma, std::int64_t& work);
   void clear_row(std::int32_t p, std::int64_t& work);
+  void subtract_run(std::int32_t first, std::int32_t last, std::int64_t tail, std::int32_t p, double& d, std::int64_t& work);
 
   const Kernels* kernels_ = &kernels_for_this_cpu();
   const KktPattern* pattern_ = nullptr;

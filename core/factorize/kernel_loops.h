@@ -50,6 +50,35 @@ void rank_one_column(std::int64_t count, double* __restrict c, double* __restric
   }
 }
 
+/// sum[i] += c[0][i] f[0], then c[1][i] f[1], …: B columns at a time, each entry's sum in order.
+template <int B>
+inline void add_columns(std::int64_t count, const double* const* c, const double* f, double* __restrict sum) {
+  std::int64_t i = 0;
+  for (; i + 4 <= count; i += 4) {
+    Four s = *reinterpret_cast<const Four*>(sum + i);
+#pragma GCC unroll 4
+    for (int b = 0; b < B; ++b) s += *reinterpret_cast<const Four*>(c[b] + i) * f[b];
+    *reinterpret_cast<Four*>(sum + i) = s;
+  }
+  for (; i < count; ++i) {
+    double s = sum[i];
+#pragma GCC unroll 4
+    for (int b = 0; b < B; ++b) s += c[b][i] * f[b];
+    sum[i] = s;
+  }
+}
+
+void combine(std::int64_t count, std::int32_t columns, const double* const* c, const double* f, double* sum) {
+  for (std::int64_t i = 0; i < count; ++i) sum[i] = 0;
+  std::int32_t k = 0;
+  for (; k + 4 <= columns; k += 4) add_columns<4>(count, c + k, f + k, sum);
+  switch (columns - k) {
+    case 3: add_columns<3>(count, c + k, f + k, sum); break;
+    case 2: add_columns<2>(count, c + k, f + k, sum); break;
+    case 1: add_columns<1>(count, c + k, f + k, sum); break;
+  }
+}
+
 std::int64_t forward(const FactorArrays& f, const Stretch& s, double* y) {
   if (s.last - s.first == 1) {
     const std::int32_t j = s.first;

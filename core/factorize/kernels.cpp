@@ -4,7 +4,7 @@
 
 namespace mlcp {
 
-const Kernels portable_kernels{forward, backward, rank_one};
+const Kernels portable_kernels{forward, combine, backward, rank_one};
 
 const Kernels& kernels_for_this_cpu() {
 #if defined(__x86_64__)

@@ -26,6 +26,8 @@ struct FactorArrays {
 struct Kernels {
   /// y := y − C(:,j) y_j/d_j for the columns of a stretch that are in, in order.
   std::int64_t (*forward)(const FactorArrays&, const Stretch&, double* y);
+  /// sum := Σ_k f_k c_k over `columns` runs of `count` entries, in order of k.
+  void (*combine)(std::int64_t count, std::int32_t columns, const double* const* c, const double* f, double* sum);
   /// x_j := (x_j − C(:,j)ᵀ x) / d_j for the columns of a stretch that are in, in reverse.
   std::int64_t (*backward)(const FactorArrays&, const Stretch&, double* x);
   /// One stretch of the rank-1 update "trailing matrix += σ w wᵀ". Gill, Golub, Murray & Saunders (1974), method C1, on C = L D:

@@ -6,7 +6,7 @@
 
 namespace mlcp {
 
-const Kernels avx2_kernels{forward, backward, rank_one};
+const Kernels avx2_kernels{forward, combine, backward, rank_one};
 
 }  // namespace mlcp
 #endif

@@ -89,5 +89,27 @@ TEST_F(Kernels, BackwardSolvesTheTransposedColumns) {
   }
 }
 
+/// Σ_k f_k c_k, each entry summed in order of k, on either CPU.
+TEST_F(Kernels, CombineSumsColumnsInOrder) {
+  for (int seed = 0; seed < 500; ++seed) {
+    Random random(seed);
+    const int count = random.integer(0, 21), columns = random.integer(1, 33);
+    std::vector<std::vector<double>> c(columns, std::vector<double>(count));
+    std::vector<const double*> pointers;
+    std::vector<double> f(columns), expected(count, 0.0);
+    for (int k = 0; k < columns; ++k) {
+      f[k] = random.uniform();
+      for (double& entry : c[k]) entry = random.uniform();
+      pointers.push_back(c[k].data());
+      for (int i = 0; i < count; ++i) expected[i] += c[k][i] * f[k];
+    }
+    for (const mlcp::Kernels* kernels : {&mlcp::portable_kernels, &mlcp::kernels_for_this_cpu()}) {
+      std::vector<double> sum(count, 1e300);
+      kernels->combine(count, columns, pointers.data(), f.data(), sum.data());
+      ASSERT_EQ(sum, expected) << "seed " << seed;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace support
