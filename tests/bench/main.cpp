@@ -47,6 +47,7 @@ mlcp_report solve(const scenes::Problem& problem, mlcp_solver* solver, mlcp_refa
   mlcp_settings_init(&settings, sizeof settings);
   settings.method = MLCP_METHOD_SIMPLEX;
   settings.refactorize = refactorize;
+  settings.warm_start = 0;
   mlcp_solver_set_settings(solver, &settings);
   mlcp_report report;
   mlcp_report_init(&report, sizeof report);
