@@ -12,6 +12,8 @@ constexpr int patience = 3;
 constexpr double refined = 1e-13;
 constexpr double sharp_epsilon = 1e-8, first_epsilon = 1e-2, reduction = 0.3;
 constexpr int most_descents = 30, most_inner_steps = 60;
+/// Rounding may move a row once more after the refined point.
+constexpr int most_rounds = 5;
 /// Of the largest Mⱼⱼ, where M is only semidefinite.
 constexpr double semidefinite_delta = 1e-8;
 
@@ -47,9 +49,15 @@ Newton::Ending Newton::full_steps(const Island& island, double drop) {
 
 /// settled: the refined point of the active set solves the problem itself. stuck: it does not, or flips_ tells which rows must change.
 Newton::Ending Newton::finish(const Island& island) {
-  const double error = basis_.refine(island, counts_);
-  flips_ = proximal_.flips_of_point(island);
-  return flips_.empty() && error <= refined && empty_rows_hold(island) ? Ending::settled : Ending::stuck;
+  const std::size_t few = 8 + (island.last_row - island.first_row) / 50;
+  for (int round = 0; round < most_rounds; ++round) {
+    const double error = basis_.refine(island, counts_);
+    flips_ = proximal_.flips_of_point(island);
+    if (flips_.empty()) return error <= refined && empty_rows_hold(island) ? Ending::settled : Ending::stuck;
+    if (proximal_.epsilon() == 0 || !(error <= refined) || flips_.size() > few) break;
+    basis_.change(island, flips_, 0, counts_);  // ties: rows that ε had kept on the other side of their bounds
+  }
+  return Ending::stuck;
 }
 
 /// Rows that no impulse can move (a = 0) are none of Newton's, but they may be violated.
@@ -68,7 +76,6 @@ Newton::Ending Newton::exact(const Island& island) {
   const auto wanted = active();
   if (!proximal_.soften(island, 0, 0, dependent_pivot)) return Ending::indefinite;
   if (active() < wanted) return Ending::dependent;
-  constexpr int most_rounds = 5;  // rounding may move a row once more
   for (int round = 0; round < most_rounds; ++round) {
     const Ending ending = full_steps(island, dependent_pivot);
     if (ending != Ending::settled) return ending;
