@@ -45,6 +45,9 @@ class Basis {
   /// returns the backward error.
   double refine(const Island& island, Counts& counts);
 
+  /// w of the point, and what counts as zero.
+  void look_at_slacks(const Island& island, Counts& counts);
+
   /// Slacks up to this, relative to the scale of their error, count as zero while solving.
   double zero() const;
 
@@ -63,7 +66,6 @@ class Basis {
   Workspace work;
 
  private:
-  void look_at_slacks(const Island& island, Counts& counts);
   std::int32_t violations(const Island& island) const;
   bool still(const Island& island, bool widely);
   void count_toggle(const Island& island, Counts& counts);

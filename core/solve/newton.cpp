@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "memory/slice.h"
+
 namespace mlcp {
 namespace {
 
@@ -168,17 +170,27 @@ mlcp_outcome Newton::solve(const Island& island) {
   }
 }
 
+/// The proximal point around 0, refined against K: every correction is (A + εD)⁻¹A z, which lies in D⁻¹ range(A) as the least norm does, so
+/// that only rounding, of the size of its unit over ε, is left. The largest ε that converges is the best.
 bool Newton::least_norm(const Island& island) {
-  // rows that hold share the load, whether they are active or not
-  for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
-    basis_.work.center[basis_.position(o)] = 0;
-    const std::uint8_t state = basis_.set.state[o];
-    if (state == ActiveSet::disabled || !(basis_.values.a[o] > 0)) continue;
-    if (std::abs(basis_.set.w[o]) <= basis_.set.tolerance[o]) basis_.set.state[o] = ActiveSet::active;
-  }
+  auto x = slice(basis_.set.x.data(), island.first, island.last);
+  auto saved = slice(basis_.work.rhs_size.data(), island.first, island.last);
+  saved = x;
+  for (std::int32_t o = island.first_row; o < island.last_row; ++o) basis_.work.entered[o] = basis_.set.state[o];
   proximal_.enter(island);
-  if (!soften(island, sharp_epsilon)) return false;
-  return full_steps(island, 0) == Ending::settled && finish(island) == Ending::settled;
+  for (const double epsilon : {1e-4, 1e-6, 1e-8}) {
+    // rows that hold share the load, whether they are active or not
+    for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
+      basis_.work.center[basis_.position(o)] = 0;
+      if (basis_.set.state[o] != ActiveSet::disabled && basis_.values.a[o] > 0 && std::abs(basis_.set.w[o]) <= basis_.set.tolerance[o])
+        basis_.set.state[o] = ActiveSet::active;
+    }
+    if (soften(island, epsilon) && full_steps(island, 0) == Ending::settled && finish(island) == Ending::settled) return true;
+    x = saved;
+    for (std::int32_t o = island.first_row; o < island.last_row; ++o) basis_.set.state[o] = static_cast<std::uint8_t>(basis_.work.entered[o]);
+    basis_.look_at_slacks(island, counts_);
+  }
+  return false;
 }
 
 }  // namespace mlcp

@@ -20,7 +20,7 @@ class Newton {
   /// SOLVED: the basis holds the answer. ITERATION_LIMIT: it gave up, and the active set is the best start that it knows.
   mlcp_outcome solve(const Island& island);
   /// Among the impulses that give this velocity, those with the least Σ aᵢγᵢ²: the proximal point around 0 as ε → 0. before: the basis holds an
-  /// answer. false: not found, and the basis holds nothing of use.
+  /// answer. false: not found, and the point is what it was.
   bool least_norm(const Island& island);
   double epsilon() const { return proximal_.epsilon(); }  ///< of the factor that is left
 

@@ -204,6 +204,202 @@ const _: () = {
         "Offset of field: mlcp_rows_f32::key_stride",
     ][::core::mem::offset_of!(mlcp_rows_f32, key_stride) - 120usize];
 };
+pub type mlcp_friction = i32;
+pub const MLCP_FRICTION_NONE: mlcp_friction = 0;
+pub const MLCP_FRICTION_CONVEX: mlcp_friction = 1;
+pub const MLCP_FRICTION_COULOMB: mlcp_friction = 2;
+pub const MLCP_FRICTION_BOX: mlcp_friction = 3;
+pub const MLCP_FRICTION_FINDEX: mlcp_friction = 4;
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct mlcp_contacts {
+    pub struct_size: usize,
+    pub count: i32,
+    pub dimension: i32,
+    pub body_a: *const i32,
+    pub body_b: *const i32,
+    pub jacobian_a: *const f64,
+    pub jacobian_b: *const f64,
+    pub jacobian_a_stride: isize,
+    pub jacobian_b_stride: isize,
+    pub r: *const f64,
+    pub compliance: *const f64,
+    pub mu: *const f64,
+    pub bound: *const f64,
+    pub model: *const mlcp_friction,
+    pub facets: *const i32,
+    pub key: *const u64,
+    pub vector_stride: isize,
+    pub value_stride: isize,
+    pub choice_stride: isize,
+    pub body_stride: isize,
+    pub key_stride: isize,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+const _: () = {
+    ["Size of mlcp_contacts"][::core::mem::size_of::<mlcp_contacts>() - 160usize];
+    ["Alignment of mlcp_contacts"][::core::mem::align_of::<mlcp_contacts>() - 8usize];
+    [
+        "Offset of field: mlcp_contacts::struct_size",
+    ][::core::mem::offset_of!(mlcp_contacts, struct_size) - 0usize];
+    [
+        "Offset of field: mlcp_contacts::count",
+    ][::core::mem::offset_of!(mlcp_contacts, count) - 8usize];
+    [
+        "Offset of field: mlcp_contacts::dimension",
+    ][::core::mem::offset_of!(mlcp_contacts, dimension) - 12usize];
+    [
+        "Offset of field: mlcp_contacts::body_a",
+    ][::core::mem::offset_of!(mlcp_contacts, body_a) - 16usize];
+    [
+        "Offset of field: mlcp_contacts::body_b",
+    ][::core::mem::offset_of!(mlcp_contacts, body_b) - 24usize];
+    [
+        "Offset of field: mlcp_contacts::jacobian_a",
+    ][::core::mem::offset_of!(mlcp_contacts, jacobian_a) - 32usize];
+    [
+        "Offset of field: mlcp_contacts::jacobian_b",
+    ][::core::mem::offset_of!(mlcp_contacts, jacobian_b) - 40usize];
+    [
+        "Offset of field: mlcp_contacts::jacobian_a_stride",
+    ][::core::mem::offset_of!(mlcp_contacts, jacobian_a_stride) - 48usize];
+    [
+        "Offset of field: mlcp_contacts::jacobian_b_stride",
+    ][::core::mem::offset_of!(mlcp_contacts, jacobian_b_stride) - 56usize];
+    [
+        "Offset of field: mlcp_contacts::r",
+    ][::core::mem::offset_of!(mlcp_contacts, r) - 64usize];
+    [
+        "Offset of field: mlcp_contacts::compliance",
+    ][::core::mem::offset_of!(mlcp_contacts, compliance) - 72usize];
+    [
+        "Offset of field: mlcp_contacts::mu",
+    ][::core::mem::offset_of!(mlcp_contacts, mu) - 80usize];
+    [
+        "Offset of field: mlcp_contacts::bound",
+    ][::core::mem::offset_of!(mlcp_contacts, bound) - 88usize];
+    [
+        "Offset of field: mlcp_contacts::model",
+    ][::core::mem::offset_of!(mlcp_contacts, model) - 96usize];
+    [
+        "Offset of field: mlcp_contacts::facets",
+    ][::core::mem::offset_of!(mlcp_contacts, facets) - 104usize];
+    [
+        "Offset of field: mlcp_contacts::key",
+    ][::core::mem::offset_of!(mlcp_contacts, key) - 112usize];
+    [
+        "Offset of field: mlcp_contacts::vector_stride",
+    ][::core::mem::offset_of!(mlcp_contacts, vector_stride) - 120usize];
+    [
+        "Offset of field: mlcp_contacts::value_stride",
+    ][::core::mem::offset_of!(mlcp_contacts, value_stride) - 128usize];
+    [
+        "Offset of field: mlcp_contacts::choice_stride",
+    ][::core::mem::offset_of!(mlcp_contacts, choice_stride) - 136usize];
+    [
+        "Offset of field: mlcp_contacts::body_stride",
+    ][::core::mem::offset_of!(mlcp_contacts, body_stride) - 144usize];
+    [
+        "Offset of field: mlcp_contacts::key_stride",
+    ][::core::mem::offset_of!(mlcp_contacts, key_stride) - 152usize];
+};
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct mlcp_contacts_f32 {
+    pub struct_size: usize,
+    pub count: i32,
+    pub dimension: i32,
+    pub body_a: *const i32,
+    pub body_b: *const i32,
+    pub jacobian_a: *const f32,
+    pub jacobian_b: *const f32,
+    pub jacobian_a_stride: isize,
+    pub jacobian_b_stride: isize,
+    pub r: *const f32,
+    pub compliance: *const f32,
+    pub mu: *const f32,
+    pub bound: *const f32,
+    pub model: *const mlcp_friction,
+    pub facets: *const i32,
+    pub key: *const u64,
+    pub vector_stride: isize,
+    pub value_stride: isize,
+    pub choice_stride: isize,
+    pub body_stride: isize,
+    pub key_stride: isize,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+const _: () = {
+    [
+        "Size of mlcp_contacts_f32",
+    ][::core::mem::size_of::<mlcp_contacts_f32>() - 160usize];
+    [
+        "Alignment of mlcp_contacts_f32",
+    ][::core::mem::align_of::<mlcp_contacts_f32>() - 8usize];
+    [
+        "Offset of field: mlcp_contacts_f32::struct_size",
+    ][::core::mem::offset_of!(mlcp_contacts_f32, struct_size) - 0usize];
+    [
+        "Offset of field: mlcp_contacts_f32::count",
+    ][::core::mem::offset_of!(mlcp_contacts_f32, count) - 8usize];
+    [
+        "Offset of field: mlcp_contacts_f32::dimension",
+    ][::core::mem::offset_of!(mlcp_contacts_f32, dimension) - 12usize];
+    [
+        "Offset of field: mlcp_contacts_f32::body_a",
+    ][::core::mem::offset_of!(mlcp_contacts_f32, body_a) - 16usize];
+    [
+        "Offset of field: mlcp_contacts_f32::body_b",
+    ][::core::mem::offset_of!(mlcp_contacts_f32, body_b) - 24usize];
+    [
+        "Offset of field: mlcp_contacts_f32::jacobian_a",
+    ][::core::mem::offset_of!(mlcp_contacts_f32, jacobian_a) - 32usize];
+    [
+        "Offset of field: mlcp_contacts_f32::jacobian_b",
+    ][::core::mem::offset_of!(mlcp_contacts_f32, jacobian_b) - 40usize];
+    [
+        "Offset of field: mlcp_contacts_f32::jacobian_a_stride",
+    ][::core::mem::offset_of!(mlcp_contacts_f32, jacobian_a_stride) - 48usize];
+    [
+        "Offset of field: mlcp_contacts_f32::jacobian_b_stride",
+    ][::core::mem::offset_of!(mlcp_contacts_f32, jacobian_b_stride) - 56usize];
+    [
+        "Offset of field: mlcp_contacts_f32::r",
+    ][::core::mem::offset_of!(mlcp_contacts_f32, r) - 64usize];
+    [
+        "Offset of field: mlcp_contacts_f32::compliance",
+    ][::core::mem::offset_of!(mlcp_contacts_f32, compliance) - 72usize];
+    [
+        "Offset of field: mlcp_contacts_f32::mu",
+    ][::core::mem::offset_of!(mlcp_contacts_f32, mu) - 80usize];
+    [
+        "Offset of field: mlcp_contacts_f32::bound",
+    ][::core::mem::offset_of!(mlcp_contacts_f32, bound) - 88usize];
+    [
+        "Offset of field: mlcp_contacts_f32::model",
+    ][::core::mem::offset_of!(mlcp_contacts_f32, model) - 96usize];
+    [
+        "Offset of field: mlcp_contacts_f32::facets",
+    ][::core::mem::offset_of!(mlcp_contacts_f32, facets) - 104usize];
+    [
+        "Offset of field: mlcp_contacts_f32::key",
+    ][::core::mem::offset_of!(mlcp_contacts_f32, key) - 112usize];
+    [
+        "Offset of field: mlcp_contacts_f32::vector_stride",
+    ][::core::mem::offset_of!(mlcp_contacts_f32, vector_stride) - 120usize];
+    [
+        "Offset of field: mlcp_contacts_f32::value_stride",
+    ][::core::mem::offset_of!(mlcp_contacts_f32, value_stride) - 128usize];
+    [
+        "Offset of field: mlcp_contacts_f32::choice_stride",
+    ][::core::mem::offset_of!(mlcp_contacts_f32, choice_stride) - 136usize];
+    [
+        "Offset of field: mlcp_contacts_f32::body_stride",
+    ][::core::mem::offset_of!(mlcp_contacts_f32, body_stride) - 144usize];
+    [
+        "Offset of field: mlcp_contacts_f32::key_stride",
+    ][::core::mem::offset_of!(mlcp_contacts_f32, key_stride) - 152usize];
+};
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
 pub struct mlcp_matrix_view {
@@ -346,10 +542,12 @@ pub struct mlcp_settings {
     pub num_threads: i32,
     pub parallel_for: mlcp_parallel_for,
     pub parallel_context: *mut ::core::ffi::c_void,
+    pub facets: i32,
+    pub max_shifts: i32,
 }
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 const _: () = {
-    ["Size of mlcp_settings"][::core::mem::size_of::<mlcp_settings>() - 104usize];
+    ["Size of mlcp_settings"][::core::mem::size_of::<mlcp_settings>() - 112usize];
     ["Alignment of mlcp_settings"][::core::mem::align_of::<mlcp_settings>() - 8usize];
     [
         "Offset of field: mlcp_settings::struct_size",
@@ -402,6 +600,12 @@ const _: () = {
     [
         "Offset of field: mlcp_settings::parallel_context",
     ][::core::mem::offset_of!(mlcp_settings, parallel_context) - 96usize];
+    [
+        "Offset of field: mlcp_settings::facets",
+    ][::core::mem::offset_of!(mlcp_settings, facets) - 104usize];
+    [
+        "Offset of field: mlcp_settings::max_shifts",
+    ][::core::mem::offset_of!(mlcp_settings, max_shifts) - 108usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -437,10 +641,20 @@ pub struct mlcp_report {
     pub refactorized_for_drift: i32,
     pub warm: i32,
     pub fallbacks: i32,
+    pub cone_error: f64,
+    pub cone_residual: f64,
+    pub worst_contact: i32,
+    pub contacts_open: i32,
+    pub contacts_sticking: i32,
+    pub contacts_sliding: i32,
+    pub generators: i32,
+    pub facets: i32,
+    pub shift_iterations: i32,
+    pub islands_by_lemke: i32,
 }
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 const _: () = {
-    ["Size of mlcp_report"][::core::mem::size_of::<mlcp_report>() - 192usize];
+    ["Size of mlcp_report"][::core::mem::size_of::<mlcp_report>() - 240usize];
     ["Alignment of mlcp_report"][::core::mem::align_of::<mlcp_report>() - 8usize];
     [
         "Offset of field: mlcp_report::struct_size",
@@ -535,6 +749,76 @@ const _: () = {
     [
         "Offset of field: mlcp_report::fallbacks",
     ][::core::mem::offset_of!(mlcp_report, fallbacks) - 188usize];
+    [
+        "Offset of field: mlcp_report::cone_error",
+    ][::core::mem::offset_of!(mlcp_report, cone_error) - 192usize];
+    [
+        "Offset of field: mlcp_report::cone_residual",
+    ][::core::mem::offset_of!(mlcp_report, cone_residual) - 200usize];
+    [
+        "Offset of field: mlcp_report::worst_contact",
+    ][::core::mem::offset_of!(mlcp_report, worst_contact) - 208usize];
+    [
+        "Offset of field: mlcp_report::contacts_open",
+    ][::core::mem::offset_of!(mlcp_report, contacts_open) - 212usize];
+    [
+        "Offset of field: mlcp_report::contacts_sticking",
+    ][::core::mem::offset_of!(mlcp_report, contacts_sticking) - 216usize];
+    [
+        "Offset of field: mlcp_report::contacts_sliding",
+    ][::core::mem::offset_of!(mlcp_report, contacts_sliding) - 220usize];
+    [
+        "Offset of field: mlcp_report::generators",
+    ][::core::mem::offset_of!(mlcp_report, generators) - 224usize];
+    [
+        "Offset of field: mlcp_report::facets",
+    ][::core::mem::offset_of!(mlcp_report, facets) - 228usize];
+    [
+        "Offset of field: mlcp_report::shift_iterations",
+    ][::core::mem::offset_of!(mlcp_report, shift_iterations) - 232usize];
+    [
+        "Offset of field: mlcp_report::islands_by_lemke",
+    ][::core::mem::offset_of!(mlcp_report, islands_by_lemke) - 236usize];
+};
+pub type mlcp_contact_state = u8;
+pub const MLCP_CONTACT_DISABLED: mlcp_contact_state = 0;
+pub const MLCP_CONTACT_OPEN: mlcp_contact_state = 1;
+pub const MLCP_CONTACT_STICKING: mlcp_contact_state = 2;
+pub const MLCP_CONTACT_SLIDING: mlcp_contact_state = 3;
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct mlcp_factor_view {
+    pub struct_size: usize,
+    pub size: i32,
+    pub entries: i64,
+    pub nodes: *const i32,
+    pub pointers: *const i64,
+    pub rows: *const i32,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+const _: () = {
+    ["Size of mlcp_factor_view"][::core::mem::size_of::<mlcp_factor_view>() - 48usize];
+    [
+        "Alignment of mlcp_factor_view",
+    ][::core::mem::align_of::<mlcp_factor_view>() - 8usize];
+    [
+        "Offset of field: mlcp_factor_view::struct_size",
+    ][::core::mem::offset_of!(mlcp_factor_view, struct_size) - 0usize];
+    [
+        "Offset of field: mlcp_factor_view::size",
+    ][::core::mem::offset_of!(mlcp_factor_view, size) - 8usize];
+    [
+        "Offset of field: mlcp_factor_view::entries",
+    ][::core::mem::offset_of!(mlcp_factor_view, entries) - 16usize];
+    [
+        "Offset of field: mlcp_factor_view::nodes",
+    ][::core::mem::offset_of!(mlcp_factor_view, nodes) - 24usize];
+    [
+        "Offset of field: mlcp_factor_view::pointers",
+    ][::core::mem::offset_of!(mlcp_factor_view, pointers) - 32usize];
+    [
+        "Offset of field: mlcp_factor_view::rows",
+    ][::core::mem::offset_of!(mlcp_factor_view, rows) - 40usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -764,6 +1048,58 @@ unsafe extern "C" {
         rows: *const i32,
     ) -> mlcp_status;
     pub fn mlcp_problem_rows_clear(problem: *mut mlcp_problem) -> mlcp_status;
+    pub fn mlcp_contacts_init(contacts: *mut mlcp_contacts, struct_size: usize);
+    pub fn mlcp_contacts_f32_init(contacts: *mut mlcp_contacts_f32, struct_size: usize);
+    pub fn mlcp_problem_contacts_add(
+        problem: *mut mlcp_problem,
+        contacts: *const mlcp_contacts,
+        first: *mut i32,
+    ) -> mlcp_status;
+    pub fn mlcp_problem_contacts_add_f32(
+        problem: *mut mlcp_problem,
+        contacts: *const mlcp_contacts_f32,
+        first: *mut i32,
+    ) -> mlcp_status;
+    pub fn mlcp_problem_contacts_declare(
+        problem: *mut mlcp_problem,
+        count: i32,
+        dimension: i32,
+        row: *const i32,
+        model: *const mlcp_friction,
+        mu: *const f64,
+        bound: *const f64,
+        facets: *const i32,
+    ) -> mlcp_status;
+    pub fn mlcp_problem_contacts_set_friction(
+        problem: *mut mlcp_problem,
+        first: i32,
+        count: i32,
+        model: *const mlcp_friction,
+        mu: *const f64,
+        bound: *const f64,
+        facets: *const i32,
+    ) -> mlcp_status;
+    pub fn mlcp_problem_contact_count(problem: *const mlcp_problem) -> i32;
+    pub fn mlcp_problem_get_contacts(
+        problem: *const mlcp_problem,
+        count: i32,
+        row: *mut i32,
+        dimension: *mut i32,
+        model: *mut mlcp_friction,
+        mu: *mut f64,
+        facets: *mut i32,
+    ) -> mlcp_status;
+    pub fn mlcp_problem_rows_set_findex(
+        problem: *mut mlcp_problem,
+        first: i32,
+        count: i32,
+        findex: *const i32,
+    ) -> mlcp_status;
+    pub fn mlcp_problem_get_findex(
+        problem: *const mlcp_problem,
+        count: i32,
+        findex: *mut i32,
+    ) -> mlcp_status;
     pub fn mlcp_problem_get_momentum(
         problem: *const mlcp_problem,
         count: i32,
@@ -946,6 +1282,16 @@ unsafe extern "C" {
         gamma: *mut f32,
         stride_bytes: isize,
     ) -> mlcp_status;
+    pub fn mlcp_solver_contact_states(
+        solver: *const mlcp_solver,
+        state: *mut *const mlcp_contact_state,
+        count: *mut i32,
+    ) -> mlcp_status;
+    pub fn mlcp_solver_contact_facets(
+        solver: *const mlcp_solver,
+        facets: *mut *const i32,
+        count: *mut i32,
+    ) -> mlcp_status;
     pub fn mlcp_solver_reaction(
         solver: *const mlcp_solver,
         problem: *const mlcp_problem,
@@ -969,6 +1315,11 @@ unsafe extern "C" {
         rows: *mut *const i32,
         y: *mut *const f64,
         count: *mut i32,
+    ) -> mlcp_status;
+    pub fn mlcp_factor_view_init(view: *mut mlcp_factor_view, struct_size: usize);
+    pub fn mlcp_solver_factor(
+        solver: *const mlcp_solver,
+        factor: *mut mlcp_factor_view,
     ) -> mlcp_status;
     pub fn mlcp_solver_trace(
         solver: *const mlcp_solver,
