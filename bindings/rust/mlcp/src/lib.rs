@@ -5,6 +5,7 @@
 mod body;
 mod callbacks;
 mod constants;
+mod contacts;
 mod error;
 mod library;
 mod mask;
@@ -24,6 +25,7 @@ pub mod timestep;
 
 pub use body::Body;
 pub use callbacks::Progress;
+pub use contacts::{Contact, ContactState, Friction};
 pub use error::{Error, Result};
 pub use library::version;
 pub use mask::{Mask, MaskRef, RowState};

@@ -91,6 +91,10 @@ pub struct Settings {
     pub warm_start: bool,
     /// Threads that solve islands, the caller's among them; 0: one a CPU; 1. The bits do not depend on it.
     pub num_threads: usize,
+    /// Facets of the friction of contacts that do not say; 0, the circular cone.
+    pub facets: usize,
+    /// Most solves of the iteration for friction; `None`: 300.
+    pub max_shifts: Option<u32>,
 }
 
 impl Default for Settings {
@@ -165,6 +169,16 @@ impl Settings {
         Settings { num_threads, ..self }
     }
 
+    /// Sets the facets of friction; 0: the circular cone, else at least 3.
+    pub fn facets(self, facets: usize) -> Self {
+        Settings { facets, ..self }
+    }
+
+    /// Sets how often the iteration for friction may solve.
+    pub fn max_shifts(self, max_shifts: u32) -> Self {
+        Settings { max_shifts: Some(max_shifts), ..self }
+    }
+
     pub(crate) fn from_raw(raw: &sys::mlcp_settings) -> Self {
         Settings {
             method: Method::from_raw(raw.method),
@@ -179,6 +193,8 @@ impl Settings {
             canonical: raw.canonical != 0,
             warm_start: raw.warm_start != 0,
             num_threads: count(raw.num_threads),
+            facets: count(raw.facets),
+            max_shifts: u32::try_from(raw.max_shifts).ok().filter(|&most| most > 0),
         }
     }
 
@@ -198,6 +214,8 @@ impl Settings {
         raw.canonical = i32::from(self.canonical);
         raw.warm_start = i32::from(self.warm_start);
         raw.num_threads = i32::try_from(self.num_threads).unwrap_or(i32::MAX); // refused by the library
+        raw.facets = i32::try_from(self.facets).unwrap_or(i32::MAX);
+        raw.max_shifts = self.max_shifts.map_or(0, |most| i32::try_from(most).unwrap_or(i32::MAX));
         raw
     }
 }

@@ -259,7 +259,7 @@ impl Solver {
         self.refused(status)
     }
 
-    fn lend<T>(&self, get: Getter<T>) -> Result<&[T]> {
+    pub(crate) fn lend<T>(&self, get: Getter<T>) -> Result<&[T]> {
         let (mut data, mut length) = (null(), 0);
         // SAFETY: a live handle and places for what is lent until the solver is used again, for which it must not be borrowed.
         unsafe {

@@ -144,7 +144,7 @@ impl Problem {
     }
 
     /// A call that changes the problem or says why not.
-    fn edit(&mut self, call: impl FnOnce(*mut sys::mlcp_problem) -> sys::mlcp_status) -> Result<()> {
+    pub(crate) fn edit(&mut self, call: impl FnOnce(*mut sys::mlcp_problem) -> sys::mlcp_status) -> Result<()> {
         let raw = self.raw.as_ptr();
         // SAFETY: a live handle, whose text stays until the next call.
         check_with(call(raw), || unsafe { text_of(sys::mlcp_problem_error(raw)) })
