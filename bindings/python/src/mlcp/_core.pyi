@@ -19,7 +19,7 @@ Triangle: TypeAlias = Literal["full", "lower", "upper"]
 Path: TypeAlias = str | bytes | os.PathLike[str] | os.PathLike[bytes]
 F8: TypeAlias = NDArray[np.float64]
 
-Method: TypeAlias = Literal["auto", "simplex"]
+Method: TypeAlias = Literal["auto", "simplex", "newton", "pgs"]
 
 version: str
 pivot_dtype: np.dtype[np.void]
@@ -34,6 +34,12 @@ class Settings(TypedDict, total=False):
     max_iterations: int
     max_work: int
     max_seconds: float
+    impulses: Literal["any", "least_norm"]
+    canonical: bool
+    warm_start: bool
+    num_threads: int
+    facets: int
+    max_shifts: int
 
 class SolverSettings(Settings, total=False):
     progress: Callable[[Progress], object] | None
@@ -151,6 +157,10 @@ class Result:
     def certificates(self) -> tuple[Certificate, ...]: ...
     @property
     def trace(self) -> NDArray[np.void]: ...
+    @property
+    def contact_states(self) -> NDArray[np.uint8]: ...
+    @property
+    def contact_facets(self) -> NDArray[np.int32]: ...
     @property
     def status(self) -> Outcome: ...
     @property
