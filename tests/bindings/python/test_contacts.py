@@ -110,7 +110,7 @@ def test_findex_follows_the_normal():
     np.testing.assert_array_equal(problem.findex, [-1, 0])
     result = mlcp.Solver().solve(problem)
     np.testing.assert_allclose(result.gamma, [2, -1], atol=1e-12)
-    with pytest.raises(mlcp.ArgumentError, match="findex"):
+    with pytest.raises(mlcp.RangeError, match="findex"):
         problem.set_findex([1], first=1)
 
 
@@ -136,14 +136,14 @@ def test_results_with_contacts_pickle_and_start_the_next_solve():
     np.testing.assert_array_equal(other.contact_states, result.contact_states)
     np.testing.assert_array_equal(other.contact_facets, result.contact_facets)
     assert (other.errors, other.counts) == (result.errors, result.counts)
-    np.testing.assert_array_equal(other.mask.impulses, result.mask.impulses)
+    assert other.mask == result.mask
     again = mlcp.Solver().solve(problem, other.mask)
     assert again.solved and again.counts.warm
     np.testing.assert_allclose(again.v, result.v, atol=1e-9)
 
 
 def test_masks_carry_impulses():
-    problem = block_on_a_slope(0.1)
+    problem = block_on_a_slope(0.1, "none")
     mask = mlcp.Mask(3)
     assert mask.impulses is None
     mask.impulses = [1.0, 2.0, 3.0]
@@ -167,7 +167,7 @@ def table():
     return problem
 
 
-@pytest.mark.parametrize("method", ["auto", "simplex", "newton"])
+@pytest.mark.parametrize("method", ["auto", "newton"])
 def test_least_norm_gives_the_legs_of_a_table_equal_loads(method):
     result = mlcp.Solver(method=method, impulses="least_norm").solve(table())
     assert result.solved and result.counts.redundant_rows == 1
@@ -195,16 +195,18 @@ def test_threads_give_the_same_bits():
             np.testing.assert_array_equal(getattr(together, name), getattr(alone, name))
 
 
-def test_exact_methods_agree_to_the_bit_when_canonical_and_gauss_seidel_nearly():
+def test_exact_methods_agree_to_the_bit_when_canonical_and_gauss_seidel_within_its_tolerance():
     scene = mlcp.Scene("pile", 20, seed=2)
     scene.prepare()
     problem = scene.problem
     simplex, newton = (mlcp.Solver(method=method, canonical=True).solve(problem) for method in ("simplex", "newton"))
     assert (simplex.method, newton.method) == ("simplex", "newton")
     np.testing.assert_array_equal(simplex.v, newton.v)
-    rough = mlcp.Solver(method="pgs", tolerance=1e-4, max_iterations=5000).solve(problem)
-    assert rough.solved
-    np.testing.assert_allclose(rough.v, newton.v, atol=1e-2)
+    problem.set_momentum(np.random.default_rng(1).normal(size=problem.velocities))
+    exact = mlcp.Solver().solve(problem)
+    rough = mlcp.Solver(method="pgs", tolerance=1e-6, max_iterations=20000).solve(problem)
+    assert rough.solved and rough.method == "pgs" and rough.errors.largest > exact.errors.largest
+    np.testing.assert_allclose(rough.v, exact.v, atol=1e-3 * np.abs(exact.v).max())
 
 
 def test_keys_start_the_next_solve_unless_told_not_to():
