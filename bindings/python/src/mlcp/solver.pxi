@@ -33,7 +33,7 @@ cdef class Solver:
         Without a start mask, rows with keys start where the last solve left rows with the same key; True.
     num_threads : int
         That solve islands, the caller's among them; 0: one a CPU; 1. The bits do not depend on it. A solver with threads of its own
-        cannot be used in a process that was forked after it was made.
+        refuses to work in a process that was forked after it was made.
     facets : int
         Of the cones of contacts that do not say; 0: the circular cone, else at least 3.
     max_shifts : int
@@ -57,6 +57,8 @@ cdef class Solver:
     cdef Watch watch_state
     cdef atomic[int] stop
     cdef bint busy
+    cdef bint threads  # it may have some of its own, which a fork does not copy
+    cdef int maker     # the process that made them
     cdef mlcp_report report
     cdef object error  # what the callback or a signal handler raised
     cdef object __weakref__
@@ -72,6 +74,7 @@ cdef class Solver:
             self.refuse(&fields)
             check(status)
         mlcp_report_init(&self.report, sizeof(mlcp_report))
+        self.maker = getpid()
         self.progress = progress
 
     cdef int refuse(self, const mlcp_settings *fields) except -1:
@@ -85,7 +88,11 @@ cdef class Solver:
         return 0
 
     def __dealloc__(self):
-        mlcp_solver_destroy(self.handle)
+        if not self.forked():  # it would wait for threads that are not there
+            mlcp_solver_destroy(self.handle)
+
+    cdef bint forked(self) noexcept:
+        return self.threads and getpid() != self.maker
 
     cdef int done(self, mlcp_status status) except -1:
         return check(status, mlcp_solver_error(self.handle))
@@ -93,6 +100,8 @@ cdef class Solver:
     cdef int idle(self) except -1:
         if self.busy:
             raise errors.StateError("this Solver is running in another thread, or calls itself from its progress callback")
+        if self.forked():
+            raise errors.StateError("this Solver has threads of its own, and the process was forked after they were made: make a new one")
         return 0
 
     @property
@@ -116,6 +125,7 @@ cdef class Solver:
         mlcp_settings_init(&fields, sizeof(mlcp_settings))
         check(mlcp_solver_get_settings(self.handle, &fields))
         write_settings(&fields, settings)
+        self.threads = self.threads or fields.num_threads != 1
         fields.progress = watch
         fields.progress_context = &self.watch_state
         return self.done(mlcp_solver_set_settings(self.handle, &fields))
