@@ -96,7 +96,7 @@ for foot in ("left foot", "right foot"):
     i = names.index(foot)
     humanoid.add_rows(body_b=[bodies[i]] * 2, jacobian_b=[[0, 1, -0.125], [0, 1, 0.125]])  # heel and toe
 
-solver = mlcp.Solver(trace=True)
+solver = mlcp.Solver(method="simplex", trace=True)
 result = solver.solve(humanoid)
 ground = result.gamma[first_contact:] / h
 print(f"humanoid: {humanoid!r}: {result}")

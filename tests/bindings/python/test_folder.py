@@ -51,6 +51,21 @@ def test_the_frictionless_problem_of_a_folder(contacts):
         assert other.to_bytes() == problem.to_bytes()
 
 
+def test_a_folder_with_its_friction(contacts):
+    found = mlcp.read_folder(contacts, friction="coulomb")
+    np.testing.assert_array_equal(found.file_rows, np.arange(8))
+    told = found.problem.contacts
+    np.testing.assert_array_equal(told.row, [1, 4])
+    np.testing.assert_array_equal(told.dimension, [3, 3])
+    np.testing.assert_array_equal(told.mu, [0.5, 0.5])
+    assert told.model == ["coulomb"] * 2 and mlcp.Problem.from_folder(contacts, friction="box").contacts.model == ["box"] * 2
+    none = mlcp.Solver().solve(mlcp.Problem.from_folder(contacts, friction="none"))
+    frictionless = mlcp.Solver().solve(mlcp.Problem.from_folder(contacts))
+    np.testing.assert_allclose(none.v, frictionless.v, atol=1e-12)
+    with pytest.raises(mlcp.ArgumentError, match="sticky"):
+        mlcp.read_folder(contacts, friction="sticky")
+
+
 def test_compressed_files_and_reduced_problems(tmp_path):
     folder = write(tmp_path / "lcp", {"form": "reduced", "nC": 1}, A=sp.csr_array([[2.0, 1], [1, 2]]), b=[-5.0, -6])
     (folder / "A.mtx.gz").write_bytes(gzip.compress((folder / "A.mtx").read_bytes()))

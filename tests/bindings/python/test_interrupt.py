@@ -14,6 +14,7 @@ begin = """
     import mlcp
     from conftest import pile
 
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs inherit one that ignores
     problem = pile(6000)
     sent = []
 

@@ -33,15 +33,17 @@ def test_sparsity_has_a_spot_for_every_entry_and_a_color_for_every_island():
 
 def test_active_set_ends_as_the_solve_did():
     problem = pile(60)
-    result = mlcp.Solver(trace=True).solve(problem)
+    result = mlcp.Solver(method="simplex", trace=True).solve(problem)
     (image,) = mlcp.plot.active_set(result).images
     states = image.get_array()
     np.testing.assert_array_equal(states[:, -1], result.mask.states)
     assert (states[:, 0] == mlcp.RowState.AT_LOWER).all() and states.shape[1] == 1 + len(result.trace)
-    warm = mlcp.Solver(trace=True).solve(problem, result.mask)
+    warm = mlcp.Solver(method="simplex", trace=True).solve(problem, result.mask)
     np.testing.assert_array_equal(mlcp.plot.active_set(warm, result.mask).images[0].get_array()[:, 0], result.mask.states)
     with pytest.raises(mlcp.ArgumentError, match="trace"):
         mlcp.plot.active_set(mlcp.Solver().solve(problem))
+    with pytest.raises(mlcp.ArgumentError, match="simplex"):
+        mlcp.plot.active_set(mlcp.Solver(method="newton", trace=True).solve(problem))
 
 
 def test_work_precision_ends_with_the_solution():
@@ -71,7 +73,7 @@ def test_scenes_step_and_refuse():
     weight = scene.step().gamma[:4].sum()
     assert weight == pytest.approx(scene.step(0.01).gamma[:4].sum()) and scene.time == pytest.approx(0.02)
     scene.prepare()
-    assert mlcp.Solver().solve(scene.problem, scene.start).counts.pivots == 0
+    assert mlcp.Solver(method="simplex").solve(scene.problem, scene.start).counts.pivots == 0
     for bad in (lambda: mlcp.Scene("moon"), lambda: mlcp.Scene("pile", 0), lambda: mlcp.Scene("pile", 2**40),
                 lambda: mlcp.Scene("pile", method="magic")):
         with pytest.raises(ValueError):

@@ -29,7 +29,8 @@ def test_ball_and_joint(ball):
 
 def test_settings_are_kept_and_bad_ones_named():
     changed = {"method": "simplex", "pivot_rule": "printed", "refactorize": "always", "trace": True, "tolerance": 1e-7,
-               "max_iterations": 5, "max_work": 10**12, "max_seconds": 2.5}
+               "max_iterations": 5, "max_work": 10**12, "max_seconds": 2.5, "impulses": "least_norm",
+               "canonical": True, "warm_start": False, "num_threads": 2, "facets": 6, "max_shifts": 40}
     solver = mlcp.Solver(**changed)
     assert changed.items() <= solver.settings.items()
     solver.configure(tolerance=1e-8)
@@ -37,7 +38,9 @@ def test_settings_are_kept_and_bad_ones_named():
     assert "tolerance = 1e-08" in repr(solver)
     for bad, error, text in (({"method": "magic"}, mlcp.ArgumentError, "method = 'magic'"), ({"tolerance": 0}, mlcp.ArgumentError, "tolerance"),
                              ({"max_seconds": -1}, mlcp.ArgumentError, "max_seconds"), ({"speed": 1}, TypeError, "speed"),
-                             ({"max_iterations": -1}, mlcp.ArgumentError, "max_iterations"), ({"tolerance": "x"}, TypeError, None),
+                             ({"max_iterations": -1}, mlcp.ArgumentError, "max_iterations"),
+                             ({"num_threads": -1}, mlcp.ArgumentError, "num_threads"), ({"facets": 2}, mlcp.ArgumentError, "facets"),
+                             ({"max_shifts": -1}, mlcp.ArgumentError, "max_shifts"), ({"impulses": "most"}, mlcp.ArgumentError, "impulses"), ({"tolerance": "x"}, TypeError, None),
                              ({"progress": 3}, mlcp.ArgumentError, "progress = 3")):
         with pytest.raises(error, match=text):
             mlcp.Solver(**bad)
@@ -47,10 +50,11 @@ def test_settings_are_kept_and_bad_ones_named():
 
 
 def test_warm_starts_need_no_pivots():
-    problem, solver = pile(120), mlcp.Solver()
+    problem, solver = pile(120), mlcp.Solver(method="simplex")
     cold = solver.solve(problem)
     warm = solver.solve(problem, cold.mask)
     assert cold.counts.pivots > 20 and warm.counts.pivots == 0 and not warm.counts.analyzed
+    assert warm.counts.warm and not cold.counts.warm
     np.testing.assert_allclose(warm.v, cold.v, atol=1e-12)
 
 
@@ -117,7 +121,7 @@ def test_redundant_rows_are_marked():
 
 def test_trace_replays_to_the_final_active_set():
     problem = pile(90)
-    result = mlcp.Solver(trace=True).solve(problem)
+    result = mlcp.Solver(method="simplex", trace=True).solve(problem)
     assert len(result.trace) == result.counts.pivots
     states = np.ones(problem.rows, int)  # contacts alone: all begin at rest
     for pivot in result.trace:

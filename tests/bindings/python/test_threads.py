@@ -1,5 +1,6 @@
 """Several solvers at once, a solver that is busy, solve_many."""
 
+import multiprocessing
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -58,6 +59,26 @@ def test_a_solver_serves_one_thread_at_a_time_and_a_problem_in_use_does_not_chan
     problem.set_r(0)
 
 
+def use_after_fork(solver, problem, answers):
+    try:
+        solver.solve(problem)
+    except mlcp.StateError as error:
+        answers.put(str(error))
+    answers.put(mlcp.Solver(num_threads=2).solve(problem).solved)
+
+
+def test_a_solver_with_threads_refuses_to_work_after_a_fork_and_goes_away_quietly():
+    problem, fork = pile(150), multiprocessing.get_context("fork")
+    solver, answers = mlcp.Solver(num_threads=2), fork.SimpleQueue()
+    solver.solve(problem)
+    child = fork.Process(target=use_after_fork, args=(solver, problem, answers))
+    child.start()
+    assert "forked" in answers.get() and answers.get() is True
+    child.join(10)
+    assert child.exitcode == 0
+    assert solver.solve(problem).solved
+
+
 def test_solve_many_does_not_depend_on_the_workers():
     problems = [pile(60, seed) for seed in range(1, 9)] + [squeezed()]
     alone = [mlcp.Solver().solve(problem) for problem in problems]
@@ -67,7 +88,7 @@ def test_solve_many_does_not_depend_on_the_workers():
         for a, b in zip(alone, together):
             np.testing.assert_array_equal(a.v, b.v)
             np.testing.assert_array_equal(a.gamma, b.gamma)
-    warm = mlcp.solve_many(problems[:3], [result.mask for result in alone[:3]], tolerance=1e-8)
+    warm = mlcp.solve_many(problems[:3], [result.mask for result in alone[:3]], tolerance=1e-8, method="simplex")
     assert [result.counts.pivots for result in warm] == [0, 0, 0]
     off = mlcp.solve_many([ball_and_joint()] * 2, enabled=[mlcp.Mask(2, 0), None])
     assert [result.counts.enabled_rows for result in off] == [0, 2]

@@ -36,12 +36,14 @@ from .errors import (
 from .folder import ProblemFolder, read_folder
 from .many import solve_many
 from .one_line import QPSolution, solve, solve_lcp, solve_qp
-from .records import Certificate, Counts, Drawing, Errors, Factor, Outcome, Progress, RowState, Snapshot, Times
+from .records import Certificate, Contacts, ContactState, Counts, Drawing, Errors, Factor, Outcome, Progress, RowState, Snapshot, Times
 
 __all__ = [
     "ArgumentError",
     "BoundProblem",
     "Certificate",
+    "ContactState",
+    "Contacts",
     "Counts",
     "Drawing",
     "Error",

@@ -101,6 +101,42 @@ cdef extern from "mlcp.h" nogil:
     mlcp_status mlcp_problem_row_set_jacobian(mlcp_problem *, int32_t, const double *, int32_t)
     mlcp_status mlcp_problem_rows_remove(mlcp_problem *, int32_t, const int32_t *)
     mlcp_status mlcp_problem_rows_clear(mlcp_problem *)
+    # contacts
+    ctypedef int32_t mlcp_friction
+    enum:
+        MLCP_FRICTION_NONE
+        MLCP_FRICTION_CONVEX
+        MLCP_FRICTION_COULOMB
+        MLCP_FRICTION_BOX
+        MLCP_FRICTION_FINDEX
+    ctypedef struct mlcp_contacts:
+        size_t struct_size
+        int32_t count
+        int32_t dimension
+        const int32_t *body_a
+        const int32_t *body_b
+        const double *jacobian_a
+        const double *jacobian_b
+        ptrdiff_t jacobian_a_stride
+        ptrdiff_t jacobian_b_stride
+        const double *r
+        const double *compliance
+        const double *mu
+        const double *bound
+        const mlcp_friction *model
+        const int32_t *facets
+        const uint64_t *key
+    void mlcp_contacts_init(mlcp_contacts *, size_t)
+    mlcp_status mlcp_problem_contacts_add(mlcp_problem *, const mlcp_contacts *, int32_t *)
+    mlcp_status mlcp_problem_contacts_declare(mlcp_problem *, int32_t, int32_t, const int32_t *, const mlcp_friction *,
+                                              const double *, const double *, const int32_t *)
+    mlcp_status mlcp_problem_contacts_set_friction(mlcp_problem *, int32_t, int32_t, const mlcp_friction *, const double *,
+                                                   const double *, const int32_t *)
+    int32_t mlcp_problem_contact_count(const mlcp_problem *)
+    mlcp_status mlcp_problem_get_contacts(const mlcp_problem *, int32_t, int32_t *, int32_t *, mlcp_friction *, double *, int32_t *)
+    mlcp_status mlcp_problem_rows_set_findex(mlcp_problem *, int32_t, int32_t, const int32_t *)
+    mlcp_status mlcp_problem_get_findex(const mlcp_problem *, int32_t, int32_t *)
+
     mlcp_status mlcp_problem_get_momentum(const mlcp_problem *, int32_t, double *)
     mlcp_status mlcp_problem_get_rows(const mlcp_problem *, int32_t, double *, double *, double *, double *, uint64_t *)
 
@@ -140,6 +176,8 @@ cdef extern from "mlcp.h" nogil:
     const mlcp_row_state *mlcp_mask_states(const mlcp_mask *)
     int32_t mlcp_mask_count(const mlcp_mask *, mlcp_row_state)
     int32_t mlcp_mask_equal(const mlcp_mask *, const mlcp_mask *)
+    mlcp_status mlcp_mask_set_impulses(mlcp_mask *, int32_t, int32_t, const double *)
+    mlcp_status mlcp_mask_get_impulses(const mlcp_mask *, int32_t, int32_t, double *)
     mlcp_status mlcp_mask_take_keys(mlcp_mask *, const mlcp_problem *)
     mlcp_status mlcp_mask_carry(mlcp_mask *, const mlcp_problem *, const mlcp_mask *, mlcp_row_state)
 
@@ -148,6 +186,8 @@ cdef extern from "mlcp.h" nogil:
     enum:
         MLCP_METHOD_AUTO
         MLCP_METHOD_SIMPLEX
+        MLCP_METHOD_NEWTON
+        MLCP_METHOD_PGS
     const char *mlcp_method_text(mlcp_method)
     ctypedef int32_t mlcp_pivot_rule
     enum:
@@ -157,6 +197,10 @@ cdef extern from "mlcp.h" nogil:
     enum:
         MLCP_REFACTORIZE_WHEN_NEEDED
         MLCP_REFACTORIZE_ALWAYS
+    ctypedef int32_t mlcp_impulses
+    enum:
+        MLCP_IMPULSES_ANY
+        MLCP_IMPULSES_LEAST_NORM
 
     ctypedef struct mlcp_progress:
         double seconds
@@ -178,6 +222,12 @@ cdef extern from "mlcp.h" nogil:
         double max_seconds
         mlcp_progress_callback progress
         void *progress_context
+        mlcp_impulses impulses
+        int32_t canonical
+        int32_t warm_start
+        int32_t num_threads
+        int32_t facets
+        int32_t max_shifts
     void mlcp_settings_init(mlcp_settings *, size_t)
     mlcp_status mlcp_solver_create(const mlcp_settings *, const mlcp_allocator *, mlcp_solver **)
     void mlcp_solver_destroy(mlcp_solver *)
@@ -216,6 +266,18 @@ cdef extern from "mlcp.h" nogil:
         double seconds_report
         int32_t analyzed
         int32_t refactorized_for_drift
+        int32_t warm
+        int32_t fallbacks
+        double cone_error
+        double cone_residual
+        int32_t worst_contact
+        int32_t contacts_open
+        int32_t contacts_sticking
+        int32_t contacts_sliding
+        int32_t generators
+        int32_t facets
+        int32_t shift_iterations
+        int32_t islands_by_lemke
     void mlcp_report_init(mlcp_report *, size_t)
     mlcp_status mlcp_analyze(mlcp_solver *, const mlcp_problem *, const mlcp_mask *)
     mlcp_status mlcp_solve(mlcp_solver *, const mlcp_problem *, const mlcp_mask *, const mlcp_mask *, mlcp_report *)
@@ -224,6 +286,9 @@ cdef extern from "mlcp.h" nogil:
     mlcp_status mlcp_solver_slacks(const mlcp_solver *, const double **, int32_t *)
     mlcp_status mlcp_solver_mask(const mlcp_solver *, const mlcp_mask **)
     mlcp_status mlcp_solver_redundant(const mlcp_solver *, const uint8_t **, int32_t *)
+    ctypedef uint8_t mlcp_contact_state
+    mlcp_status mlcp_solver_contact_states(const mlcp_solver *, const mlcp_contact_state **, int32_t *)
+    mlcp_status mlcp_solver_contact_facets(const mlcp_solver *, const int32_t **, int32_t *)
     mlcp_status mlcp_solver_reaction(const mlcp_solver *, const mlcp_problem *, int32_t, int32_t, double *)
     mlcp_status mlcp_solver_row_islands(const mlcp_solver *, const int32_t **, int32_t *)
     mlcp_status mlcp_solver_island_outcomes(const mlcp_solver *, const mlcp_outcome **, int32_t *)

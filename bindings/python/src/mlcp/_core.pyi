@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, Literal, TypedDict
 
 import numpy as np
@@ -11,7 +11,7 @@ import scipy.sparse
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Buffer, Self, TypeAlias, Unpack
 
-from .records import Certificate, Counts, Drawing, Errors, Factor, Outcome, Progress, RowState, Snapshot, Times
+from .records import Certificate, Contacts, Counts, Drawing, Errors, Factor, Outcome, Progress, RowState, Snapshot, Times
 
 # SciPy has no types: any of its sparse matrices and arrays, or what NumPy makes a dense one of
 MatrixLike: TypeAlias = ArrayLike | scipy.sparse.sparray | scipy.sparse.spmatrix
@@ -19,7 +19,8 @@ Triangle: TypeAlias = Literal["full", "lower", "upper"]
 Path: TypeAlias = str | bytes | os.PathLike[str] | os.PathLike[bytes]
 F8: TypeAlias = NDArray[np.float64]
 
-Method: TypeAlias = Literal["auto", "simplex"]
+Method: TypeAlias = Literal["auto", "simplex", "newton", "pgs"]
+Friction: TypeAlias = Literal["none", "convex", "coulomb", "box", "findex"]
 
 version: str
 pivot_dtype: np.dtype[np.void]
@@ -34,6 +35,12 @@ class Settings(TypedDict, total=False):
     max_iterations: int
     max_work: int
     max_seconds: float
+    impulses: Literal["any", "least_norm"]
+    canonical: bool
+    warm_start: bool
+    num_threads: int
+    facets: int
+    max_shifts: int
 
 class SolverSettings(Settings, total=False):
     progress: Callable[[Progress], object] | None
@@ -50,7 +57,7 @@ class Problem(Lender):
     def from_reduced(cls, a: MatrixLike, b: ArrayLike, lo: ArrayLike = 0.0, hi: ArrayLike = ..., *,
                      keys: ArrayLike | None = None) -> Self: ...
     @classmethod
-    def from_folder(cls, path: str | os.PathLike[str]) -> Self: ...
+    def from_folder(cls, path: str | os.PathLike[str], *, friction: Friction | None = None) -> Self: ...
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> Self: ...
     @classmethod
@@ -109,6 +116,22 @@ class Problem(Lender):
     def compliance(self) -> F8: ...
     @property
     def keys(self) -> NDArray[np.uint64]: ...
+    def add_contacts(self, body_a: ArrayLike | None = None, body_b: ArrayLike | None = None, jacobian_a: ArrayLike | None = None,
+                     jacobian_b: ArrayLike | None = None, *, mu: ArrayLike = 0.0, model: Friction | Sequence[Friction] = "coulomb",
+                     bound: ArrayLike = ..., r: ArrayLike = 0.0, compliance: ArrayLike = 0.0, facets: ArrayLike = 0,
+                     keys: ArrayLike | None = None) -> range: ...
+    def declare_contacts(self, rows: ArrayLike, dimension: int = 3, *, mu: ArrayLike = 0.0, model: Friction | Sequence[Friction] = "coulomb",
+                         bound: ArrayLike = ..., facets: ArrayLike = 0) -> None: ...
+    def set_friction(self, first: int = 0, count: int | None = None, *, mu: ArrayLike | None = None,
+                     model: Friction | Sequence[Friction] | None = None, bound: ArrayLike | None = None,
+                     facets: ArrayLike | None = None) -> None: ...
+    @property
+    def contact_count(self) -> int: ...
+    @property
+    def contacts(self) -> Contacts: ...
+    def set_findex(self, findex: ArrayLike, first: int = 0) -> None: ...
+    @property
+    def findex(self) -> NDArray[np.int32]: ...
     def mass(self, copy: bool = True) -> scipy.sparse.csc_array: ...
     def jacobian(self, copy: bool = True) -> scipy.sparse.csr_array: ...
     def compliance_matrix(self, copy: bool = True) -> scipy.sparse.csc_array: ...
@@ -129,6 +152,10 @@ class Mask(Lender):
     __hash__: None  # type: ignore[assignment]
     def count(self, state: int) -> int: ...
     def resize(self, count: int, state: int = 1) -> None: ...
+    @property
+    def impulses(self) -> F8 | None: ...
+    @impulses.setter
+    def impulses(self, values: ArrayLike) -> None: ...
     def take_keys(self, problem: Problem) -> None: ...
     def copy(self) -> Mask: ...
     def __copy__(self) -> Mask: ...
@@ -151,6 +178,10 @@ class Result:
     def certificates(self) -> tuple[Certificate, ...]: ...
     @property
     def trace(self) -> NDArray[np.void]: ...
+    @property
+    def contact_states(self) -> NDArray[np.uint8]: ...
+    @property
+    def contact_facets(self) -> NDArray[np.int32]: ...
     @property
     def status(self) -> Outcome: ...
     @property

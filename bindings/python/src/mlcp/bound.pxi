@@ -91,7 +91,8 @@ cdef class BoundProblem:
         Parameters
         ----------
         warm : bool
-            Start from the active set of this solver's last solve; a cold start if that had another number of rows or there was none.
+            Start from the active set of this solver's last solve; False, or if that had another number of rows or there
+            was none: as `Solver.solve` without a start, which keys may still make warm.
 
         Returns
         -------

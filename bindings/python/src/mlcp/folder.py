@@ -5,8 +5,8 @@
     global   M v = k + Cᵀλ + Dᵀz,   C v + c = 0,   w = D v + d          C, c optional
     reduced  w = A z + b, the first nC rows free (w = 0, z free)
 
-meta.json gives ``form``, ``nC``, ``contacts`` and ``dim``. Contacts come in groups of ``dim`` rows, the normal one first; here the
-tangents are left out, which is the frictionless problem.
+meta.json gives ``form``, ``nC``, ``contacts`` and ``dim``. Contacts come in groups of ``dim`` rows, the normal one first, with
+their coefficients in mu. Without a model of friction the tangents are left out.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import gzip
 import json
 import os
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import scipy.io
@@ -24,6 +24,9 @@ from numpy.typing import NDArray
 
 from ._core import Problem
 from .errors import FileError, FormatError
+
+if TYPE_CHECKING:
+    from ._core import Friction
 
 __all__ = ["ProblemFolder", "read_folder"]
 
@@ -42,8 +45,8 @@ class ProblemFolder(NamedTuple):
         return spread
 
 
-def read_folder(path: str | os.PathLike[str], problem_class: type[Problem] = Problem) -> ProblemFolder:
-    """Read the frictionless problem of a folder.
+def read_folder(path: str | os.PathLike[str], problem_class: type[Problem] = Problem, *, friction: Friction | None = None) -> ProblemFolder:
+    """Read the problem of a folder.
 
     Parameters
     ----------
@@ -51,6 +54,8 @@ def read_folder(path: str | os.PathLike[str], problem_class: type[Problem] = Pro
         Holds meta.json and ``.mtx`` or ``.mtx.gz`` files.
     problem_class : type
         What to make, `Problem` or a subclass.
+    friction : str, optional
+        Model of all contacts, as in `Problem.add_contacts`. None: the frictionless problem, without tangent rows.
 
     Raises
     ------
@@ -63,7 +68,8 @@ def read_folder(path: str | os.PathLike[str], problem_class: type[Problem] = Pro
     """
     folder = Path(path)
     meta = _read_meta(folder)
-    return _read_reduced(folder, meta, problem_class) if meta["form"] == "reduced" else _read_global(folder, meta, problem_class)
+    read = _read_reduced if meta["form"] == "reduced" else _read_global
+    return read(folder, meta, problem_class, friction)
 
 
 def _read_meta(folder: Path) -> dict[str, Any]:
@@ -123,17 +129,29 @@ def _keys(folder: Path, rows: int) -> NDArray[np.uint64]:
     return (_vector(folder, "key", rows) + 1).astype(np.uint64)
 
 
-def _choose_rows(folder: Path, meta: dict[str, Any], bilateral: int, rows: int) -> NDArray[np.int64]:
-    """All but the tangent rows of contacts."""
-    grouped = meta["dim"] > 1 and meta["contacts"] > 0 and (meta["friction"] or _read(folder, "mu") is not None)
-    end = bilateral + meta["contacts"] * meta["dim"] if grouped else bilateral
+def _have_tangents(folder: Path, meta: dict[str, Any]) -> bool:
+    return meta["dim"] > 1 and meta["contacts"] > 0 and (meta["friction"] or _read(folder, "mu") is not None)
+
+
+def _choose_rows(folder: Path, meta: dict[str, Any], bilateral: int, rows: int, friction: Friction | None) -> NDArray[np.int64]:
+    """All rows with friction, else all but the tangents of contacts."""
+    end = bilateral + meta["contacts"] * meta["dim"] if _have_tangents(folder, meta) else bilateral
     if end > rows:
         raise FormatError(f"{folder / 'meta.json'}: contacts times dim is more than there are rows")
     index = np.arange(rows)
+    if friction is not None:
+        return index
     return np.flatnonzero((index < bilateral) | (index >= end) | ((index - bilateral) % meta["dim"] == 0))
 
 
-def _read_global(folder: Path, meta: dict[str, Any], problem_class: type[Problem]) -> ProblemFolder:
+def _declare_contacts(problem: Problem, folder: Path, meta: dict[str, Any], bilateral: int, friction: Friction | None) -> None:
+    if friction is None or not _have_tangents(folder, meta):
+        return
+    count, dimension = meta["contacts"], meta["dim"]
+    problem.declare_contacts(bilateral + dimension * np.arange(count), dimension, mu=_vector(folder, "mu", count), model=friction)
+
+
+def _read_global(folder: Path, meta: dict[str, Any], problem_class: type[Problem], friction: Friction | None) -> ProblemFolder:
     mass = _matrix(folder, "M", (None, None))
     n = mass.shape[1]
     blocks = [_matrix(folder, name, (None, n)) for name in ("C", "D") if _read(folder, name) is not None]
@@ -141,18 +159,20 @@ def _read_global(folder: Path, meta: dict[str, Any], problem_class: type[Problem
     rows = jacobian.shape[0]
     bilateral = blocks[0].shape[0] if _read(folder, "C") is not None else 0
     shift = np.concatenate([_vector(folder, "c", bilateral), _vector(folder, "d", rows - bilateral)])
-    chosen = _choose_rows(folder, meta, bilateral, rows)
+    chosen = _choose_rows(folder, meta, bilateral, rows, friction)
     problem = problem_class.from_matrices(mass, _vector(folder, "k", n), jacobian[chosen], -shift[chosen],
                                           np.where(chosen < bilateral, -np.inf, 0.0), keys=_keys(folder, rows)[chosen])
+    _declare_contacts(problem, folder, meta, bilateral, friction)
     return ProblemFolder(problem, chosen, rows)
 
 
-def _read_reduced(folder: Path, meta: dict[str, Any], problem_class: type[Problem]) -> ProblemFolder:
+def _read_reduced(folder: Path, meta: dict[str, Any], problem_class: type[Problem], friction: Friction | None) -> ProblemFolder:
     matrix = _matrix(folder, "A", (None, None))
     rows, bilateral = matrix.shape[0], meta["nC"]
     if bilateral > rows:
         raise FormatError(f"{folder / 'meta.json'}: nC is more than there are rows")
-    chosen = _choose_rows(folder, meta, bilateral, rows)
+    chosen = _choose_rows(folder, meta, bilateral, rows, friction)
     problem = problem_class.from_reduced(matrix[chosen][:, chosen], _vector(folder, "b", rows)[chosen],
                                          np.where(chosen < bilateral, -np.inf, 0.0), keys=_keys(folder, rows)[chosen])
+    _declare_contacts(problem, folder, meta, bilateral, friction)
     return ProblemFolder(problem, chosen, rows)

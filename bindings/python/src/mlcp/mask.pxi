@@ -110,6 +110,23 @@ cdef class Mask(Lender):
         self.editable()
         self.done(mlcp_mask_resize(self.handle, size32(count, "count"), row_state(state, "state")))
 
+    @property
+    def impulses(self):
+        """Impulses that go with the states, (count,), N·s, a copy; None where there are none. A mask that a solve returned has them;
+        `carry` carries them too, and an iterative method starts there. May be assigned."""
+        cdef cnp.ndarray values = np.empty(mlcp_mask_size(self.handle))
+        cdef mlcp_status status = mlcp_mask_get_impulses(self.handle, 0, values.shape[0], f64(values))
+        if status == MLCP_ERROR_STATE:
+            return None
+        self.done(status)
+        return values
+
+    @impulses.setter
+    def impulses(self, values):
+        self.idle()
+        cdef cnp.ndarray array = doubles(values, "impulses", mlcp_mask_size(self.handle))
+        self.done(mlcp_mask_set_impulses(self.handle, 0, array.shape[0], f64(array)))
+
     def take_keys(self, Problem problem not None):
         """Takes the keys of the problem's rows; the lengths must match."""
         self.idle()

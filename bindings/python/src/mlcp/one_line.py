@@ -121,7 +121,7 @@ def solve_qp(P: MatrixLike, q: ArrayLike, G: MatrixLike | None = None, h: ArrayL
     Parameters
     ----------
     P : (n, n) sparse or dense
-        Symmetric positive definite, both triangles.
+        Symmetric positive definite, both triangles; a semidefinite one will do where the solution is finite.
     q : (n,) array
     G, h : (k, n) sparse or dense and (k,) array, optional
         Rows with h = inf constrain nothing.
@@ -141,7 +141,7 @@ def solve_qp(P: MatrixLike, q: ArrayLike, G: MatrixLike | None = None, h: ArrayL
     Raises
     ------
     NotSolved
-        The program is infeasible, P is not positive definite, or a limit came first; not with ``full_output=True``.
+        The program is infeasible or unbounded, P is indefinite, or a limit came first; not with ``full_output=True``.
     ArgumentError, RangeError
         Naming argument and index.
     """

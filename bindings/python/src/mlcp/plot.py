@@ -89,14 +89,14 @@ def active_set(result: Result, start: Mask | None = None, *, axes: Axes | None =
     Parameters
     ----------
     result : Result
-        Of a solver with ``trace=True``.
+        Of a solver with ``method="simplex", trace=True``.
     start : Mask, optional
         The mask the solve started from; None: every row at its lower bound, or active where it ends active without a pivot.
     axes : Axes, optional
     """
     trace, end = result.trace, np.array(result.mask.states)
-    if not len(trace) and result.counts.pivots:
-        raise ArgumentError("result has no trace: it is not from a solver with trace=True")
+    if len(trace) != result.counts.pivots:
+        raise ArgumentError('result has no trace of every step: it is not from a solver with method="simplex", trace=True')
     moved = trace[trace["blocking"] >= 0]
     states = np.empty((len(end), len(moved) + 1), np.uint8)
     states[:] = (end if start is None else np.array(start.states))[:, np.newaxis]
@@ -140,7 +140,7 @@ def work_precision(problem: Problem, methods: Iterable[Method] = ("simplex",), *
         axes = plt.subplots(figsize=(6, 4.5), layout="constrained")[1]
     for method in methods:
         solver = Solver(**settings)
-        solver.configure(method=method)
+        solver.configure(method=method, warm_start=False)  # every point begins afresh
         whole = solver.solve(problem)
         limits = np.unique(np.geomspace(1, max(whole.counts.pivots, 1), points).astype(int))
         curve = [_time_and_error(solver, problem, int(limit), repeats) for limit in (*limits, settings.get("max_iterations", 0))]

@@ -1,5 +1,8 @@
 """mlcp_problem."""
 
+cdef dict friction_models = {"none": MLCP_FRICTION_NONE, "convex": MLCP_FRICTION_CONVEX, "coulomb": MLCP_FRICTION_COULOMB,
+                             "box": MLCP_FRICTION_BOX, "findex": MLCP_FRICTION_FINDEX}
+
 cdef class Problem(Lender):
     """Bodies, rows and their numbers.
 
@@ -99,15 +102,16 @@ cdef class Problem(Lender):
         return problem
 
     @classmethod
-    def from_folder(cls, path):
-        """The frictionless problem in a folder of Matrix Market files; `mlcp.read_folder` also tells which rows those are.
+    def from_folder(cls, path, *, friction=None):
+        """The problem in a folder of Matrix Market files, without friction or with this model of it (see `add_contacts`);
+        `mlcp.read_folder` also tells where its rows stand in the files.
 
         Raises
         ------
         FileError, FormatError, ArgumentError, RangeError
         """
         from mlcp.folder import read_folder
-        return read_folder(path, cls).problem
+        return read_folder(path, cls, friction=friction).problem
 
     @classmethod
     def from_file(cls, path):
@@ -341,8 +345,8 @@ cdef class Problem(Lender):
         cdef Py_ssize_t count = next((x.shape[0] for x in given if x.ndim), 1)
         rows.count = size32(count, "count")
         cdef cnp.ndarray a = self.row_bodies(body_a, "body_a", count), b = self.row_bodies(body_b, "body_b", count)
-        cdef cnp.ndarray ja = self.row_blocks(jacobian_a, "jacobian_a", count, a)
-        cdef cnp.ndarray jb = self.row_blocks(jacobian_b, "jacobian_b", count, b)
+        cdef cnp.ndarray ja = self.row_blocks(jacobian_a, "jacobian_a", count, 1, a)
+        cdef cnp.ndarray jb = self.row_blocks(jacobian_b, "jacobian_b", count, 1, b)
         cdef cnp.ndarray r_ = doubles(r, "r", count), lo_ = doubles(lo, "lo", count), hi_ = doubles(hi, "hi", count)
         cdef cnp.ndarray compliance_ = doubles(compliance, "compliance", count)
         cdef cnp.ndarray keys_ = None if keys is None else keys_of(keys, "keys", count)
@@ -355,13 +359,10 @@ cdef class Problem(Lender):
         return range(first, first + count)
 
     cdef cnp.ndarray row_bodies(self, object ids, str name, Py_ssize_t count):
-        if ids is None:
-            return None
-        array = np.asarray(ids)
-        return indices(np.full(count, array) if array.ndim == 0 else array, name, count)
+        return None if ids is None else indices_or_one(ids, name, count)
 
-    cdef cnp.ndarray row_blocks(self, object blocks, str name, Py_ssize_t count, cnp.ndarray ids):
-        """(count, d) with every row contiguous; the rows may lie apart. Every body that is not the world has dimension d."""
+    cdef cnp.ndarray row_blocks(self, object blocks, str name, Py_ssize_t count, Py_ssize_t each, cnp.ndarray ids):
+        """(count, each d) with every row contiguous; the rows may lie apart. Every body that is not the world has dimension d."""
         if blocks is None or ids is None:
             if blocks is not None:
                 raise errors.ArgumentError(f"{name} is given, but all of body_{name[len(name) - 1:]} are the world")
@@ -377,8 +378,9 @@ cdef class Problem(Lender):
         cdef Py_ssize_t i
         for i in range(count):
             if id[i] != MLCP_WORLD and mlcp_problem_body_range(self.handle, id[i], NULL, &dimension) == MLCP_OK \
-                    and dimension != array.shape[1]:
-                raise errors.RangeError(f"{name} has {array.shape[1]} columns, but body {id[i]} of row {i} has {dimension} velocities")
+                    and each * dimension != array.shape[1]:
+                raise errors.RangeError(f"{name} has {array.shape[1] // each} columns, but body {id[i]} of {'row' if each == 1 else 'contact'} "
+                                        f"{i} has {dimension} velocities")
         return array
 
     def add_row(self, columns, values, double r=0.0, double lo=0.0, double hi=np.inf, double compliance=0.0, uint64_t key=0):
@@ -515,6 +517,124 @@ cdef class Problem(Lender):
         check(mlcp_problem_get_rows(self.handle, keys.shape[0], NULL, NULL, NULL, NULL, u64(keys)))
         return keys
 
+    # ----------------------------------------------------------------------------------------------------- contacts
+
+    def add_contacts(self, body_a=None, body_b=None, jacobian_a=None, jacobian_b=None, *, mu=0.0, model="coulomb", bound=np.inf, r=0.0,
+                     compliance=0.0, facets=0, keys=None):
+        """Adds contacts with friction: each a normal row, 0 ≤ γ, and right behind it its tangent rows, one in the plane, two in space.
+
+        Parameters
+        ----------
+        body_a, body_b : (count,) array of ids, or one id for all, optional
+            None, or −1 in the array: the world.
+        jacobian_a, jacobian_b : (count, dimension, d) array, optional
+            The rows for that body, the normal first; dimension 2 in the plane, 3 in space. float64 contacts may lie any distance apart,
+            they are read in place.
+        mu : (count,) array or number
+            Coefficient of friction, ≥ 0.
+        model : str or (count,) sequence of str
+            "none": the tangent rows are left out. "convex": the impulse in the cone, the slack in its dual; a sliding contact opens by μ
+            times its slip. "coulomb": Coulomb's law. "box": −bound ≤ γ_T ≤ bound. "findex": −μ γ_n ≤ γ_T ≤ μ γ_n.
+        bound : (count,) array or number
+            Of model "box", N·s.
+        r, compliance : (count, dimension) array or number
+            A number stands for all rows, the tangents included.
+        facets : (count,) array of integers or int
+            0: as the solver's `facets` says; else the generators of a pyramid in the cone, at least 3 in space.
+        keys : (count,) array of integers ≥ 0, optional
+            One a contact, for all its rows.
+
+        Returns
+        -------
+        range
+            Indices of the rows, `dimension` a contact.
+        """
+        self.editable()
+        shape = next((np.shape(x) for x in (jacobian_b, jacobian_a) if x is not None), None)
+        if shape is None or len(shape) != 3:
+            raise errors.RangeError("contacts need jacobian_a or jacobian_b of shape (count, dimension, d)")
+        cdef mlcp_contacts contacts
+        mlcp_contacts_init(&contacts, sizeof(mlcp_contacts))
+        cdef Py_ssize_t count = shape[0], dimension = shape[1]
+        contacts.count, contacts.dimension = size32(count, "count"), size32(dimension, "dimension")
+        cdef cnp.ndarray a = self.row_bodies(body_a, "body_a", count), b = self.row_bodies(body_b, "body_b", count)
+        cdef cnp.ndarray ja = self.contact_blocks(jacobian_a, "jacobian_a", count, dimension, a)
+        cdef cnp.ndarray jb = self.contact_blocks(jacobian_b, "jacobian_b", count, dimension, b)
+        cdef cnp.ndarray r_ = contact_vectors(r, "r", count, dimension)
+        cdef cnp.ndarray compliance_ = contact_vectors(compliance, "compliance", count, dimension)
+        cdef cnp.ndarray mu_ = doubles(mu, "mu", count), bound_ = doubles(bound, "bound", count)
+        cdef cnp.ndarray model_ = friction_numbers(model, count), facets_ = indices_or_one(facets, "facets", count)
+        cdef cnp.ndarray keys_ = None if keys is None else keys_of(keys, "keys", count)
+        contacts.body_a, contacts.body_b, contacts.jacobian_a, contacts.jacobian_b = i32(a), i32(b), f64(ja), f64(jb)
+        contacts.jacobian_a_stride = 0 if ja is None else ja.strides[0]
+        contacts.jacobian_b_stride = 0 if jb is None else jb.strides[0]
+        contacts.r, contacts.compliance, contacts.mu, contacts.bound = f64(r_), f64(compliance_), f64(mu_), f64(bound_)
+        contacts.model, contacts.facets, contacts.key = i32(model_), i32(facets_), u64(keys_)
+        cdef int32_t first = 0
+        self.done(mlcp_problem_contacts_add(self.handle, &contacts, &first))
+        return range(first, first + count * dimension)
+
+    cdef cnp.ndarray contact_blocks(self, object blocks, str name, Py_ssize_t count, Py_ssize_t dimension, cnp.ndarray ids):
+        if blocks is None:
+            return self.row_blocks(None, name, count, dimension, ids)
+        array = np.asarray(blocks)
+        if array.ndim != 3 or array.shape[:2] != (count, dimension):
+            raise errors.RangeError(f"{name} has shape {array.shape}, not ({count}, {dimension}, d)")
+        # a view where the rows of a contact lie one behind the other
+        return self.row_blocks(array.reshape(count, dimension * array.shape[2]), name, count, dimension, ids)
+
+    def declare_contacts(self, rows, int32_t dimension=3, *, mu=0.0, model="coulomb", bound=np.inf, facets=0):
+        """Makes contacts of rows that are there: rows[c] is a normal, the dimension − 1 rows behind it are its tangents.
+
+        For rows of a matrix, and for reduced problems, whose A is the Delassus matrix. The bounds of a normal must be 0 and inf, those
+        of the tangents are set as the model has them. Other parameters as in `add_contacts`.
+        """
+        self.editable()
+        cdef cnp.ndarray at = indices(rows, "rows", -1)
+        cdef Py_ssize_t count = at.shape[0]
+        cdef cnp.ndarray mu_ = doubles(mu, "mu", count), bound_ = doubles(bound, "bound", count)
+        cdef cnp.ndarray model_ = friction_numbers(model, count), facets_ = indices_or_one(facets, "facets", count)
+        self.done(mlcp_problem_contacts_declare(self.handle, size32(count, "length of rows"), dimension, i32(at), i32(model_), f64(mu_),
+                                                f64(bound_), i32(facets_)))
+
+    def set_friction(self, int32_t first=0, count=None, *, mu=None, model=None, bound=None, facets=None):
+        """New friction of `count` contacts from `first` on (None: all of them), in order of adding; None leaves what there is."""
+        self.editable()
+        cdef int32_t many = size32(max(0, self.contact_count - first) if count is None else count, "count")
+        cdef cnp.ndarray mu_ = None if mu is None else doubles(mu, "mu", many)
+        cdef cnp.ndarray bound_ = None if bound is None else doubles(bound, "bound", many)
+        cdef cnp.ndarray model_ = None if model is None else friction_numbers(model, many)
+        cdef cnp.ndarray facets_ = None if facets is None else indices_or_one(facets, "facets", many)
+        self.done(mlcp_problem_contacts_set_friction(self.handle, first, many, i32(model_), f64(mu_), f64(bound_), i32(facets_)))
+
+    @property
+    def contact_count(self):
+        """Number of contacts."""
+        return mlcp_problem_contact_count(self.handle)
+
+    @property
+    def contacts(self):
+        """The contacts, as `Contacts`, copies."""
+        cdef int32_t count = mlcp_problem_contact_count(self.handle)
+        cdef cnp.ndarray row = np.empty(count, np.int32), dimension = np.empty(count, np.int32), model = np.empty(count, np.int32)
+        cdef cnp.ndarray mu = np.empty(count), facets = np.empty(count, np.int32)
+        check(mlcp_problem_get_contacts(self.handle, count, i32(row), i32(dimension), i32(model), f64(mu), i32(facets)))
+        return records.Contacts(row, dimension, [chosen(number, friction_models) for number in model], mu, facets)
+
+    def set_findex(self, findex, int32_t first=0):
+        """The findex array of ODE, Bullet and DART for the rows from `first` on: findex[i] ≥ 0 makes lo and hi of the row factors of the
+        impulse of row findex[i]; −1: plain bounds."""
+        self.editable()
+        cdef cnp.ndarray values = indices(findex, "findex", -1)
+        self.done(mlcp_problem_rows_set_findex(self.handle, first, size32(values.shape[0], "length of findex"), i32(values)))
+
+    @property
+    def findex(self):
+        """Of each row the one whose impulse its bounds follow, −1: none; (m,) int32, a copy."""
+        cdef cnp.ndarray values = np.empty(mlcp_problem_row_count(self.handle), np.int32)
+        check(mlcp_problem_get_findex(self.handle, values.shape[0], i32(values)))
+        return values
+
     # ----------------------------------------------------------------------------------------------------- matrices
 
     cdef object matrix(self, const mlcp_matrix_view *view, bint by_rows, bint copy):
@@ -549,3 +669,22 @@ cdef class Problem(Lender):
         mlcp_matrix_view_init(&view, sizeof(mlcp_matrix_view))
         check(mlcp_problem_compliance(self.handle, &view))
         return self.matrix(&view, False, copy)
+
+
+cdef cnp.ndarray friction_numbers(object model, Py_ssize_t count):
+    """mlcp_friction of `count` contacts; one name stands for all."""
+    if isinstance(model, str):
+        return np.full(count, choice("model", model, friction_models), np.int32)
+    return indices(np.array([choice(f"model[{i}]", name, friction_models) for i, name in enumerate(model)], np.int32), "model", count)
+
+
+cdef cnp.ndarray indices_or_one(object values, str name, Py_ssize_t count):
+    """int32, `count` long; a number stands for all."""
+    return indices(np.full(count, values) if np.ndim(values) == 0 else values, name, count)
+
+
+cdef cnp.ndarray contact_vectors(object values, str name, Py_ssize_t count, Py_ssize_t dimension):
+    """float64, `dimension` a contact; a number stands for all."""
+    if np.ndim(values) and np.shape(values) != (count, dimension):
+        raise errors.RangeError(f"{name} has shape {np.shape(values)}, not ({count}, {dimension})")
+    return doubles(np.ravel(values) if np.ndim(values) else values, name, count * dimension)

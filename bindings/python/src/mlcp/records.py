@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
     from ._core import Mask, Problem, Solver
 
-__all__ = ["Certificate", "Counts", "Drawing", "Errors", "Factor", "Outcome", "Progress", "RowState", "Snapshot", "Times"]
+__all__ = ["Certificate", "ContactState", "Contacts", "Counts", "Drawing", "Errors", "Factor", "Outcome", "Progress", "RowState", "Snapshot", "Times"]
 
 
 class Outcome(str, Enum):
@@ -38,17 +38,29 @@ class RowState(IntEnum):
     AT_UPPER = 3  #: impulse at hi
 
 
+class ContactState(IntEnum):
+    """What a contact does, the entries of `Result.contact_states`."""
+
+    DISABLED = 0  #: its normal row is left out
+    OPEN = 1  #: no impulse
+    STICKING = 2  #: no slip
+    SLIDING = 3  #: it slips, and the impulse is at the limit of friction
+
+
 class Errors(NamedTuple):
     """Errors recomputed from the problem's own numbers; not finite: inf."""
 
     momentum: float  #: max |Mv − Jᵀγ − k|ᵢ / (|M||v| + |J|ᵀ|γ| + |k|)ᵢ
     constraints: float  #: max |median(w, a(γ − lo), a(γ − hi))|ᵢ over the row's own scale
-    largest: float  #: the larger of the two
+    largest: float  #: the largest of momentum, constraints and cone
     momentum_residual: float  #: max |Mv − Jᵀγ − k|ᵢ, N·s
     constraint_residual: float  #: max |median(w, a(γ − lo), a(γ − hi))|ᵢ, m/s
     worst_velocity: int  #: where momentum is, −1 if n = 0; not positive definite: whose pivot failed
     worst_row: int  #: where constraints is, −1 if there is none
     worst_body: int  #: the body whose mass is not positive definite, else −1; the row in a reduced problem
+    cone: float  #: of contacts with a cone, whose rows are not in constraints: distances of γ and w to the cones, and |γ·w|/|γ|
+    cone_residual: float  #: the same, m/s
+    worst_contact: int  #: where cone is, −1 if there is none
 
 
 class Counts(NamedTuple):
@@ -59,7 +71,7 @@ class Counts(NamedTuple):
     enabled_rows: int
     active_rows: int
     redundant_rows: int
-    pivots: int  #: steps of the simplex
+    pivots: int  #: steps of the simplex, Newton steps, sweeps of Gauss-Seidel
     toggles: int  #: rows taken into or out of the factor
     factorizations: int
     refinements: int  #: steps of iterative refinement
@@ -67,6 +79,15 @@ class Counts(NamedTuple):
     factor_entries: int  #: below the diagonal of L, every enabled row in
     analyzed: bool  #: this solve had to analyze
     refactorized_for_drift: int
+    warm: bool  #: started from a mask, given or found by keys
+    fallbacks: int  #: islands that newton or pgs gave up and another method solved
+    contacts_open: int  #: contacts with friction, as all that follow
+    contacts_sticking: int
+    contacts_sliding: int
+    generators: int  #: rows that stand for cones in the solves
+    facets: int  #: most generators that one contact needed
+    shift_iterations: int  #: solves of the iteration for friction
+    islands_by_lemke: int  #: islands that the finite fallback solved
 
 
 class Times(NamedTuple):
@@ -113,6 +134,16 @@ class Snapshot(NamedTuple):
     solver: Solver
     enabled: Mask | None
     start: Mask | None
+
+
+class Contacts(NamedTuple):
+    """The contacts of a problem, in order of adding: arrays of their number."""
+
+    row: NDArray[np.int32]  #: the normal one; the tangents follow it
+    dimension: NDArray[np.int32]  #: rows a contact
+    model: list[str]  #: "none", "convex", "coulomb", "box" or "findex"
+    mu: NDArray[np.float64]
+    facets: NDArray[np.int32]
 
 
 class Drawing(NamedTuple):

@@ -21,16 +21,21 @@ cdef class Result:
     mask : Mask
         States and keys of the rows: the start of the next step.
     redundant : (m,) bool array
-        Rows found dependent on active ones; their impulse is at a bound or 0.
+        Rows found dependent on active ones: their impulse is at a bound or 0, or they share the load.
     row_islands : (m,) int32 array
         The island of each row, −1 for disabled rows.
     certificates : tuple of Certificate
         One for each island that is infeasible.
     trace : structured array
-        One record a pivot: island, entering, blocking, to, dependent, step, violation, schur; empty without ``trace=True``.
+        One record a pivot: island, entering, blocking, to, dependent, step, violation, schur; empty without
+        ``trace=True``. Steps of other methods than the simplex are not in it.
+    contact_states : (contacts,) uint8 array
+        A `ContactState` for each contact, in order of adding.
+    contact_facets : (contacts,) int32 array
+        Generators of each contact's cone that were tried, 0 where it has none.
     """
     cdef mlcp_report report
-    cdef readonly object v, gamma, w, redundant, row_islands, trace
+    cdef readonly object v, gamma, w, redundant, row_islands, trace, contact_states, contact_facets
     cdef readonly Mask mask
     cdef readonly tuple certificates
     cdef object islands  # their outcomes, int32
@@ -44,6 +49,8 @@ cdef class Result:
         cdef const double *data = NULL
         cdef const uint8_t *redundant = NULL
         cdef const int32_t *islands = NULL
+        cdef const int32_t *facets = NULL
+        cdef const mlcp_contact_state *states = NULL
         cdef const mlcp_mask *mask = NULL
         cdef const mlcp_pivot *pivots = NULL
         cdef int32_t count = 0
@@ -69,6 +76,10 @@ cdef class Result:
         if steps:
             memcpy(cnp.PyArray_DATA(trace), pivots, steps * sizeof(mlcp_pivot))
         self.trace = trace
+        check(mlcp_solver_contact_states(solver, &states, &count))
+        self.contact_states = copied(states, count, cnp.NPY_UINT8)
+        check(mlcp_solver_contact_facets(solver, &facets, &count))
+        self.contact_facets = copied(facets, count, cnp.NPY_INT32)
         return self
 
     @staticmethod
@@ -94,7 +105,7 @@ cdef class Result:
 
     @property
     def method(self):
-        """Name of the method that ran."""
+        """Name of the method that ran; "auto": several did."""
         return mlcp_method_text(self.report.method).decode()
 
     @property
@@ -112,7 +123,7 @@ cdef class Result:
         """`Errors`, recomputed from the problem's own numbers, rows that were not enabled excepted."""
         cdef mlcp_report *r = &self.report
         return records.Errors(r.momentum_error, r.constraint_error, r.largest_error, r.momentum_residual, r.constraint_residual,
-                              r.worst_velocity, r.worst_row, r.worst_body)
+                              r.worst_velocity, r.worst_row, r.worst_body, r.cone_error, r.cone_residual, r.worst_contact)
 
     @property
     def counts(self):
@@ -120,7 +131,8 @@ cdef class Result:
         cdef mlcp_report *r = &self.report
         return records.Counts(r.islands, r.islands_failed, r.enabled_rows, r.active_rows, r.redundant_rows, r.pivots, r.toggles,
                               r.factorizations, r.refinements, r.work, r.factor_entries, r.analyzed != 0,
-                              r.refactorized_for_drift)
+                              r.refactorized_for_drift, r.warm != 0, r.fallbacks, r.contacts_open, r.contacts_sticking,
+                              r.contacts_sliding, r.generators, r.facets, r.shift_iterations, r.islands_by_lemke)
 
     @property
     def times(self):
@@ -130,7 +142,7 @@ cdef class Result:
 
     def __reduce__(self):
         return _result_of_parts, (self.report, self.v, self.gamma, self.w, self.mask, self.redundant, self.row_islands,
-                                  self.islands, self.certificates, self.trace)
+                                  self.islands, self.certificates, self.trace, self.contact_states, self.contact_facets)
 
     def __repr__(self):
         cdef mlcp_report *r = &self.report
@@ -138,9 +150,11 @@ cdef class Result:
                 f"error {r.largest_error:.0e}, {1e3 * r.seconds:.3g} ms>")
 
 
-def _result_of_parts(report, v, gamma, w, mask, redundant, row_islands, islands, certificates, trace):
+def _result_of_parts(report, v, gamma, w, mask, redundant, row_islands, islands, certificates, trace, contact_states,
+                     contact_facets):
     cdef Result result = Result.__new__(Result)
     result.report = report
     result.v, result.gamma, result.w, result.mask, result.redundant = v, gamma, w, mask, redundant
     result.row_islands, result.islands, result.certificates, result.trace = row_islands, islands, certificates, trace
+    result.contact_states, result.contact_facets = contact_states, contact_facets
     return result

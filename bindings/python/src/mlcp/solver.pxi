@@ -5,22 +5,39 @@ cdef class Solver:
 
     Parameters
     ----------
-    method : str
-        "auto" or "simplex" (the paper's method: exact, finite).
+    method : {"auto", "simplex", "newton", "pgs"}
+        "auto": chosen island by island. "simplex": the paper's method, exact, finite, one row at a time. "newton": many rows at a
+        time, exact, also for a positive semidefinite M where the solution is finite; falls back on the simplex. "pgs": projected
+        Gauss-Seidel, for a `tolerance` that it can reach.
     pivot_rule : {"dual", "printed"}
         Which rows block: impulses alone, or as the paper's pseudocode prints it.
     refactorize : {"when_needed", "always"}
         Row toggles, or afresh at every pivot, to compare.
     trace : bool
-        Record every pivot in `Result.trace`.
+        Record every pivot of the simplex in `Result.trace`.
     tolerance : float
         On the largest relative error of the report, > 0; 1e-9.
     max_iterations : int
-        Pivots an island; 0: 50 (rows + 10).
+        Pivots, Newton steps or sweeps an island; 0: 50 (rows + 10).
     max_work : int
-        Entries touched, the same on every machine; 0: no limit.
+        Entries touched an island, the same on every machine; 0: no limit.
     max_seconds : float
         0: no limit.
+    impulses : {"any", "least_norm"}
+        Which ones, where dependent rows leave a choice: those that the method ends with, or the least Σ aᵢ γᵢ², so that the legs of a
+        table carry equal loads. v is the same.
+    canonical : bool
+        Compute the answer anew from its active set, so that warm and cold starts and all exact methods give the same bits where active
+        rows are independent and none is at zero by accident.
+    warm_start : bool
+        Without a start mask, rows with keys start where the last solve left rows with the same key; True.
+    num_threads : int
+        That solve islands, the caller's among them; 0: one a CPU; 1. The bits do not depend on it. A solver with threads of its own
+        refuses to work in a process that was forked after it was made.
+    facets : int
+        Of the cones of contacts that do not say; 0: the circular cone, else at least 3.
+    max_shifts : int
+        Solves of the iteration for friction; 0: 300.
     progress : callable, optional
         Called on the solving thread with a `Progress` at the beginning and then about every 20 ms; a true value stops the solve
         with status "interrupted", an exception stops it and is raised.
@@ -40,6 +57,8 @@ cdef class Solver:
     cdef Watch watch_state
     cdef atomic[int] stop
     cdef bint busy
+    cdef bint threads  # it may have some of its own, which a fork does not copy
+    cdef int maker     # the process that made them
     cdef mlcp_report report
     cdef object error  # what the callback or a signal handler raised
     cdef object __weakref__
@@ -55,6 +74,7 @@ cdef class Solver:
             self.refuse(&fields)
             check(status)
         mlcp_report_init(&self.report, sizeof(mlcp_report))
+        self.maker = getpid()
         self.progress = progress
 
     cdef int refuse(self, const mlcp_settings *fields) except -1:
@@ -68,7 +88,11 @@ cdef class Solver:
         return 0
 
     def __dealloc__(self):
-        mlcp_solver_destroy(self.handle)
+        if not self.forked():  # it would wait for threads that are not there
+            mlcp_solver_destroy(self.handle)
+
+    cdef bint forked(self) noexcept:
+        return self.threads and getpid() != self.maker
 
     cdef int done(self, mlcp_status status) except -1:
         return check(status, mlcp_solver_error(self.handle))
@@ -76,6 +100,8 @@ cdef class Solver:
     cdef int idle(self) except -1:
         if self.busy:
             raise errors.StateError("this Solver is running in another thread, or calls itself from its progress callback")
+        if self.forked():
+            raise errors.StateError("this Solver has threads of its own, and the process was forked after they were made: make a new one")
         return 0
 
     @property
@@ -99,6 +125,7 @@ cdef class Solver:
         mlcp_settings_init(&fields, sizeof(mlcp_settings))
         check(mlcp_solver_get_settings(self.handle, &fields))
         write_settings(&fields, settings)
+        self.threads = self.threads or fields.num_threads != 1
         fields.progress = watch
         fields.progress_context = &self.watch_state
         return self.done(mlcp_solver_set_settings(self.handle, &fields))
@@ -181,8 +208,8 @@ cdef class Solver:
         ----------
         problem : Problem
         start : Mask, optional
-            The active set to start from, e.g. ``Mask.carry(problem, result.mask)`` of the last step; any will do. None: bilateral
-            rows only.
+            The active set to start from, e.g. ``Mask.carry(problem, result.mask)`` of the last step; any will do. None: what
+            `warm_start` finds by the rows' keys, else bilateral rows only.
         enabled : Mask, optional
             Rows in state DISABLED are left out. None: all rows count.
 
