@@ -117,14 +117,18 @@ impl Problem {
                 facets.as_mut_ptr(),
             )
         })?;
-        let contact = |(((row, dimension), (model, mu)), facets): (((i32, i32), (i32, f64)), i32)| Contact {
-            row: count(row),
-            dimension: count(dimension),
-            friction: Friction::from_raw(model),
-            mu,
-            facets: count(facets),
-        };
-        Ok(row.into_iter().zip(dimension).zip(model.into_iter().zip(mu)).zip(facets).map(contact).collect())
+        let rows = row.into_iter().zip(dimension);
+        let choices = model.into_iter().zip(mu).zip(facets);
+        Ok(rows
+            .zip(choices)
+            .map(|((row, dimension), ((model, mu), facets))| Contact {
+                row: count(row),
+                dimension: count(dimension),
+                friction: Friction::from_raw(model),
+                mu,
+                facets: count(facets),
+            })
+            .collect())
     }
 }
 
