@@ -214,6 +214,7 @@ void ContactSolver::State::solve_with(const Problem& problem, const Mask* mask, 
   solver.set_settings(settings);
   classify(problem, mask, result, total);
   keep_slip(problem);
+  result.mask.impulse.assign(result.gamma.span());
   total.shift_iterations = shifts;
   total.islands_by_lemke = by_lemke;
   total.seconds_report += seconds_measure;
