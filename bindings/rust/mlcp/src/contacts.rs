@@ -16,7 +16,7 @@ constants! {
         /// Coulomb's law.
         Coulomb = MLCP_FRICTION_COULOMB,
         /// Tangent impulses within fixed bounds.
-        Box = MLCP_FRICTION_BOX,
+        Bounded = MLCP_FRICTION_BOX,
         /// Tangent impulses within ± µ times the normal one, each alone, as `findex` of ODE, Bullet and DART.
         Findex = MLCP_FRICTION_FINDEX,
     }
