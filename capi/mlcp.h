@@ -516,7 +516,7 @@ typedef struct mlcp_progress {
   size_t struct_size;
   double seconds;
   int64_t pivots;
-  int64_t work;          /* entries touched so far */
+  int64_t work;          /* entries touched so far in this island; pivots too */
   int32_t island;        /* index of the island being solved */
   int32_t islands;
   double violation;      /* largest violation in this island, relative as in the report */
