@@ -49,12 +49,12 @@ struct Solver::State {
   State(const Settings& s, const Memory& m)
       : memory(m), settings(s), main(m), exact(m), pool(m), measure(m), result(m), imposed(m), given_up(m), kept(m) {}
 
-  bool analyze(const Problem& problem, const Mask* enabled);
+  bool analyze(const Problem& problem, const Mask* enabled, const Poll& poll = {});
   void solve_free_velocities(const Problem& problem);
   void read_ends(const Stage& stage, const Problem& problem, bool only_rows, mlcp_report& report, Counts& counts);
-  void collect(const Problem& problem);
+  void collect(const SolveInput& input);
   void rescue(const SolveInput& input, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts);
-  void make_canonical(const SolveInput& input);
+  void make_canonical(const SolveInput& input, Watch& watch);
   void judge(const Problem& problem, const Mask* enabled);
   void fill(const Problem& problem, mlcp_report& report, const Counts& counts) const;
 };
@@ -84,11 +84,11 @@ const Analysis& Solver::analysis() const { return state_->main.analysis; }
 std::span<const std::int32_t> Solver::ordering() const { return state_->main.analysis.ordering.order.span(); }
 void Solver::impose_ordering(std::span<const std::int32_t> ordering) { state_->imposed.assign(ordering); }
 
-bool Solver::State::analyze(const Problem& problem, const Mask* enabled) {
+bool Solver::State::analyze(const Problem& problem, const Mask* enabled, const Poll& poll) {
   check_mask(enabled, problem, "enabled");
   const bool rows_last = settings.method == MLCP_METHOD_SIMPLEX;
   if (imposed.empty() && main.analysis.covers(problem, enabled, rows_last)) return false;
-  main.analysis.run(problem, enabled, rows_last, imposed.span());
+  main.analysis.run(problem, enabled, rows_last, imposed.span(), poll);
   imposed.clear();
   return true;
 }
@@ -127,12 +127,15 @@ void Solver::State::read_ends(const Stage& stage, const Problem& problem, bool o
   }
 }
 
-/// From elimination order back to the caller's.
-void Solver::State::collect(const Problem& problem) {
+/// From elimination order back to the caller's. Rows that a stopped analysis has left out rest.
+void Solver::State::collect(const SolveInput& input) {
+  const Problem& problem = input.problem;
   const std::int32_t n = problem.n(), m = problem.m();
   for (std::int32_t j = 0; j < n; ++j)
     if (problem.prescribed(j)) result.v[j] = problem.given_velocity[j];
-  result.mask.state.assign(m, MLCP_ROW_DISABLED);
+  result.mask.state.assign(m, MLCP_ROW_AT_LOWER);
+  for (std::int32_t i = 0; i < m; ++i)
+    if (input.enabled && input.enabled->state[i] == MLCP_ROW_DISABLED) result.mask.state[i] = MLCP_ROW_DISABLED;
   result.mask.key.assign(problem.key.span());
   result.gamma.assign(m, 0.0);
   main.collect(problem, false, result);
@@ -152,7 +155,13 @@ void Solver::State::rescue(const SolveInput& input, Watch& watch, Crew& crew, ml
   Settings pivoting = settings;
   pivoting.method = MLCP_METHOD_SIMPLEX;
   const SolveInput part{problem, &given_up, pivoting};
-  exact.analysis.run(problem, &given_up, true, {});
+  try {
+    exact.analysis.run(problem, &given_up, true, {}, watch.poll());
+  } catch (const Stopped&) {
+    for (std::size_t s = 0; s < main.ends.size(); ++s)
+      if (main.ends[s].crowded) result.island_outcome[s] = watch.stopped();
+    return;
+  }
   exact.load(part, &result.mask);
   exact.solve(part, watch, crew, false, result);
   read_ends(exact, problem, true, report, counts);
@@ -160,10 +169,14 @@ void Solver::State::rescue(const SolveInput& input, Watch& watch, Crew& crew, ml
 }
 
 /// The answer from the active set alone: ordered, factored and solved as if nothing had been before. Kept if it is as good as what there is.
-void Solver::State::make_canonical(const SolveInput& input) {
-  exact.analysis.run(input.problem, input.enabled, true, {});
-  exact.load(input, &result.mask);
-  if (!exact.settle(input)) return;
+void Solver::State::make_canonical(const SolveInput& input, Watch& watch) {
+  try {
+    exact.analysis.run(input.problem, input.enabled, true, {}, watch.poll());
+    exact.load(input, &result.mask);
+    if (!exact.settle(watch)) return;
+  } catch (const Stopped&) {
+    return;
+  }
   const double before = errors.largest();
   given_up.state.assign(result.mask.state.span());
   given_up.impulse.assign(result.gamma.span());
@@ -240,7 +253,11 @@ void Solver::solve(const Problem& problem, const Mask* enabled, const Mask* star
   Watch watch(s.settings);
   Crew crew(s.settings, s.pool);
   const SolveInput input{problem, enabled, s.settings};
-  const bool analyzed = s.analyze(problem, enabled);
+  bool analyzed = true;
+  try {
+    analyzed = s.analyze(problem, enabled, watch.poll());
+  } catch (const Stopped&) {  // the analysis of nothing leads to the answer 0, which is judged like any other
+  }
   const double after_analysis = watch.seconds();
 
   Counts counts;
@@ -266,16 +283,17 @@ void Solver::solve(const Problem& problem, const Mask* enabled, const Mask* star
   s.main.solve(input, watch, crew, start != nullptr, s.result);
   s.read_ends(s.main, problem, false, report, counts);
   s.solve_free_velocities(problem);
-  s.collect(problem);
+  s.collect(input);
   s.rescue(input, watch, crew, report, counts);
   const double after_solve = watch.seconds();
   s.judge(problem, enabled);
   if (s.settings.canonical) {
-    s.make_canonical(input);
+    s.make_canonical(input, watch);
     s.judge(problem, enabled);
   }
   s.result.mask.impulse.assign(s.result.gamma.span());
   s.fill(problem, report, counts);
+  if (report.outcome == MLCP_ITERATION_LIMIT && s.result.island_outcome.empty()) report.outcome = watch.stopped();
   report.warm = start != nullptr;
   report.analyzed = analyzed;
   report.seconds_analyze = analyzed ? after_analysis : 0;

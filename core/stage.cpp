@@ -56,6 +56,7 @@ void Stage::solve(const SolveInput& input, Watch& watch, Crew& crew, bool warm, 
   const auto& islands = analysis.symbolic.islands;
   const auto count = static_cast<std::int32_t>(islands.size());
   check_.prepare(input.problem);
+  basis.factor.ask(watch.poll());
   ends.resize(count);
   Array<mlcp_pivot>* trace = input.settings.trace ? &result.trace : nullptr;
   // neighbouring islands in one task, by the size of their factors; a trace is written in order, on one thread
@@ -78,7 +79,8 @@ void Stage::solve(const SolveInput& input, Watch& watch, Crew& crew, bool warm, 
   });
 }
 
-bool Stage::settle(const SolveInput&) {
+bool Stage::settle(Watch& watch) {
+  basis.factor.ask(watch.poll());
   bool good = true;
   Counts counts;
   for (const Island& island : analysis.symbolic.islands) {

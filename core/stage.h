@@ -32,8 +32,8 @@ class Stage {
   void load(const SolveInput& input, const Mask* start);
   /// Every island by its method, crew permitting at the same time.
   void solve(const SolveInput& input, Watch& watch, Crew& crew, bool warm, Result& result);
-  /// The point of the loaded active set, nothing else: factored afresh and refined.  false: some island has none.
-  bool settle(const SolveInput& input);
+  /// The point of the loaded active set, nothing else: factored afresh and refined.  false: some island has none.  throws: Stopped.
+  bool settle(Watch& watch);
 
   /// Velocities, impulses and states, from elimination order to the caller's. only_rows: of islands with rows.
   void collect(const Problem& problem, bool only_rows, Result& result) const;

@@ -39,12 +39,26 @@ void Analysis::remember(const Problem& problem) {
   sigma_indices_.assign(problem.compliance.indices.span());
 }
 
-void Analysis::run(const Problem& problem, const Mask* enabled, bool exact, std::span<const std::int32_t> imposed) {
+void Analysis::run(const Problem& problem, const Mask* enabled, bool exact, std::span<const std::int32_t> imposed, const Poll& poll) {
   done_ = false;
   exact_ = exact;
   selection.take(problem, enabled);
   crowding.find(problem, selection, exact);
-  if (imposed.empty() || !ordering.accept(problem, selection, crowding, imposed)) ordering.compute(problem, selection, crowding);
+  try {
+    if (imposed.empty() || !ordering.accept(problem, selection, crowding, imposed)) ordering.compute(problem, selection, crowding, poll);
+    build(problem, poll);
+  } catch (const Stopped&) {
+    ordering.clear();
+    build(problem, {});
+    throw;
+  }
+  assert(check_analysis(*this));
+  remember(problem);
+  done_ = true;
+}
+
+/// From the order to everything that follows from it.
+void Analysis::build(const Problem& problem, const Poll& poll) {
   pattern.build(problem, ordering.order.span());
   tree.build(pattern);
   tree.postorder(sequence_);
@@ -54,11 +68,8 @@ void Analysis::run(const Problem& problem, const Mask* enabled, bool exact, std:
     pattern.build(problem, ordering.order.span());
     tree.build(pattern);
   }
-  symbolic.build(pattern, tree, crowding);
+  symbolic.build(pattern, tree, crowding, poll);
   parts.build(pattern);
-  assert(check_analysis(*this));
-  remember(problem);
-  done_ = true;
 }
 
 }  // namespace mlcp

@@ -26,10 +26,12 @@ class Analysis {
   /// true if what is there fits the problem: the same patterns and bodies, and no row enabled that was not.
   bool covers(const Problem& problem, const Mask* enabled, bool exact) const;
   /// exact: rows after their velocities everywhere. imposed: elimination order to use if it fits; empty: compute one.
-  void run(const Problem& problem, const Mask* enabled, bool exact, std::span<const std::int32_t> imposed);
+  /// throws: Stopped; then the analysis is that of nothing.
+  void run(const Problem& problem, const Mask* enabled, bool exact, std::span<const std::int32_t> imposed, const Poll& poll = {});
 
  private:
   void remember(const Problem& problem);
+  void build(const Problem& problem, const Poll& poll);
 
   bool done_ = false, exact_ = false;
   Array<std::int32_t> sequence_;

@@ -185,7 +185,10 @@ bool Newton::least_norm(const Island& island) {
       if (basis_.set.state[o] != ActiveSet::disabled && basis_.values.a[o] > 0 && std::abs(basis_.set.w[o]) <= basis_.set.tolerance[o])
         basis_.set.state[o] = ActiveSet::active;
     }
-    if (soften(island, epsilon) && full_steps(island, 0) == Ending::settled && finish(island) == Ending::settled) return true;
+    try {
+      if (soften(island, epsilon) && full_steps(island, 0) == Ending::settled && finish(island) == Ending::settled) return true;
+    } catch (const Stopped&) {  // what there was stands
+    }
     x = saved;
     for (std::int32_t o = island.first_row; o < island.last_row; ++o) basis_.set.state[o] = static_cast<std::uint8_t>(basis_.work.entered[o]);
     basis_.look_at_slacks(island, counts_);
