@@ -251,7 +251,7 @@ void Solver::solve(const Problem& problem, const Mask* enabled, const Mask* star
   s.result.valid = false;
   s.pool.resize(s.settings.parallel_for ? 1 : s.settings.num_threads > 0 ? s.settings.num_threads : static_cast<std::int32_t>(std::max(1u, std::thread::hardware_concurrency())));
   Watch watch(s.settings);
-  Crew crew(s.settings, s.pool);
+  Crew crew(watch, s.pool);
   const SolveInput input{problem, enabled, s.settings};
   bool analyzed = true;
   try {

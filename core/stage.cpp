@@ -23,7 +23,8 @@ constexpr std::int64_t least_task = 500;
 
 template <class Task>
 void Crew::run(std::int32_t count, Task task) {
-  if (count <= 1 || (!settings_.parallel_for && pool_.threads() <= 1)) {
+  const Settings& settings = watch_.settings();
+  if (count <= 1 || (!settings.parallel_for && pool_.threads() <= 1)) {
     for (std::int32_t index = 0; index < count; ++index) task(index);
     return;
   }
@@ -40,10 +41,10 @@ void Crew::run(std::int32_t count, Task task) {
       if (!c.failed.test_and_set()) c.error = std::current_exception();
     }
   };
-  if (settings_.parallel_for)
-    settings_.parallel_for(settings_.parallel_context, count, run_one, &call);
+  if (settings.parallel_for)
+    settings.parallel_for(settings.parallel_context, count, run_one, &call);
   else
-    pool_.run(count, run_one, &call);
+    pool_.run(count, run_one, &call, &Watch::ask, &watch_);
   if (call.error) std::rethrow_exception(call.error);
 }
 

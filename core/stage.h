@@ -9,13 +9,13 @@ namespace mlcp {
 /// Who works on the islands: the caller's parallel_for, our pool, or this thread.
 class Crew {
  public:
-  Crew(const Settings& settings, Pool& pool) : settings_(settings), pool_(pool) {}
+  Crew(Watch& watch, Pool& pool) : watch_(watch), pool_(pool) {}
   /// task(index) for index 0 .. count − 1. One task may throw bad_alloc or Error, which is thrown again when all have ended.
   template <class Task>
   void run(std::int32_t count, Task task);
 
  private:
-  const Settings& settings_;
+  Watch& watch_;
   Pool& pool_;
 };
 

@@ -30,10 +30,6 @@ mlcp_outcome Watch::check(const mlcp_progress& now) {
   return checks_++ % 16 == 0 || settings_.max_seconds > 0 ? look() : stopped_.load();
 }
 
-Poll Watch::poll() {
-  return {[](void* watch) { return static_cast<Watch*>(watch)->look() != MLCP_SOLVED; }, this};
-}
-
 mlcp_outcome Limits::check(const Counts& counts, double violation) {
   const Settings& s = watch_.settings();
   if (counts.pivots - first_pivot_ >= most_iterations_) return MLCP_ITERATION_LIMIT;

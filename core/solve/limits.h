@@ -31,8 +31,9 @@ class Watch {
   mlcp_outcome look();
   /// Tells the state of an island and looks, at the clock always and at the caller every so often.  cost: nothing without a limit or a report.
   mlcp_outcome check(const mlcp_progress& now);
-  /// For loops without a state of their own: look() about every millisecond.
-  Poll poll();
+  /// For loops without a state of their own: look() every few milliseconds.
+  Poll poll() { return {&ask, this}; }
+  static bool ask(void* watch) { return static_cast<Watch*>(watch)->look() != MLCP_SOLVED; }
 
  private:
   using Clock = std::chrono::steady_clock;

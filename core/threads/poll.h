@@ -15,7 +15,7 @@ class Poll {
   Poll() = default;
   Poll(Ask ask, void* context) : ask_(ask), context_(context) {}
 
-  /// Counts entries touched, and asks about every millisecond of them.  throws: Stopped.
+  /// Counts entries touched, and asks every few milliseconds of them.  throws: Stopped.
   void spend(std::int64_t entries) {
     left_ -= entries;
     if (left_ < 0) look();
