@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
 from typing import Any, Literal, TypedDict
 
 import numpy as np
@@ -44,6 +45,12 @@ class Settings(TypedDict, total=False):
 
 class SolverSettings(Settings, total=False):
     progress: Callable[[Progress], object] | None
+    parallel_for: Executor | Callable[[Work], object] | None
+
+class Work:
+    @property
+    def count(self) -> int: ...
+    def __call__(self) -> None: ...
 
 class Lender: ...
 
@@ -211,6 +218,10 @@ class Solver:
     def progress(self) -> Callable[[Progress], object] | None: ...
     @progress.setter
     def progress(self, callback: Callable[[Progress], object] | None) -> None: ...
+    @property
+    def parallel_for(self) -> Executor | Callable[[Work], object] | None: ...
+    @parallel_for.setter
+    def parallel_for(self, parallel_for: Executor | Callable[[Work], object] | None) -> None: ...
     @property
     def result(self) -> Result | None: ...
     def analyze(self, problem: Problem, *, enabled: Mask | None = None) -> None: ...
