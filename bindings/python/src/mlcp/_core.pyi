@@ -12,7 +12,7 @@ import scipy.sparse
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Buffer, Self, TypeAlias, Unpack
 
-from .records import Certificate, Contacts, Counts, Drawing, Errors, Factor, Outcome, Progress, RowState, Snapshot, Times
+from .records import Certificate, Contacts, Counts, Drawing, Errors, Exhibit, Factor, Outcome, Progress, RowState, Snapshot, Times
 
 # SciPy has no types: any of its sparse matrices and arrays, or what NumPy makes a dense one of
 MatrixLike: TypeAlias = ArrayLike | scipy.sparse.sparray | scipy.sparse.spmatrix
@@ -25,7 +25,7 @@ Friction: TypeAlias = Literal["none", "convex", "coulomb", "box", "findex"]
 
 version: str
 pivot_dtype: np.dtype[np.void]
-scenes: dict[str, tuple[str, int]]
+scenes: dict[str, Exhibit]
 
 class Settings(TypedDict, total=False):
     method: Method
