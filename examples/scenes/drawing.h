@@ -2,7 +2,7 @@
 #include <array>
 #include <vector>
 
-#include "vector.h"
+#include "geometry/shapes.h"
 
 namespace scenes {
 
@@ -25,5 +25,7 @@ struct Drawing {
   std::vector<Path> paths;      // bodies that are lines, and the ground
   std::vector<Action> actions;  // a row each, in the order of the rows
 };
+
+Drawing::Corners corners(const Box& box, const Frame& frame);
 
 }  // namespace scenes
