@@ -67,8 +67,10 @@ def test_what_is_not_solved_and_what_is_no_program(capsys):
     assert "infeasible" in capsys.readouterr().out
     assert qpsolvers.solve_qp(*contradiction.unpack(), solver="mlcp") is None
     assert not qpsolvers.solve_problem(random_program(1), solver="mlcp", method="simplex", max_iterations=1).found
-    with pytest.raises(ProblemError, match="semidefinite"):
-        qpsolvers.solve_qp(np.array([[1.0, 2], [2, 1]]), np.ones(2), solver="mlcp")
+    indefinite = qpsolvers.solve_problem(qpsolvers.Problem(np.array([[1.0, 2], [2, 1]]), np.ones(2)), solver="mlcp")
+    assert not indefinite.found and indefinite.extras["result"].status == "not_positive_definite"
+    with pytest.raises(ProblemError, match="symmetric"):
+        qpsolvers.solve_qp(np.array([[1.0, 2], [0, 1]]), np.ones(2), solver="mlcp")
     with pytest.raises(ProblemError, match="q|momentum|k"):
         qpsolvers.solve_qp(np.eye(2), np.array([np.nan, 0]), solver="mlcp")
     with pytest.raises(TypeError, match="speed"):

@@ -21,7 +21,6 @@ from qpsolvers.exceptions import ProblemError
 from qpsolvers.solvers import dense_solvers, solve_function
 
 from .one_line import solve_qp
-from .records import Outcome
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -49,20 +48,19 @@ def mlcp_solve_problem(problem: qpsolvers.Problem, initvals: NDArray[np.float64]
     Returns
     -------
     qpsolvers.Solution
-        ``extras["result"]`` is the `mlcp.Result`. Where nothing was found x and the multipliers are what the solve left.
+        ``extras["result"]`` is the `mlcp.Result`. Where nothing was found its ``status`` says why, and x
+        and the multipliers are what the solve left.
 
     Raises
     ------
     qpsolvers.ProblemError
-        P is indefinite, or the problem is not a quadratic program.
+        The problem is not a quadratic program: numbers that are not finite, an asymmetric P.
     """
     begin = time.perf_counter()
     try:
         found = solve_qp(*problem.unpack(), initvals=initvals, full_output=True, **settings)
     except ValueError as error:
         raise ProblemError(str(error)) from error
-    if found.result.status is Outcome.NOT_POSITIVE_DEFINITE:
-        raise ProblemError("matrix P is not positive semidefinite")
     if verbose:
         print(found.result)
     boxed = problem.lb is not None or problem.ub is not None
