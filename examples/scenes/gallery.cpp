@@ -3,7 +3,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "bottle_line.h"
 #include "chain.h"
+#include "gripper.h"
 #include "pile.h"
 #include "rope.h"
 #include "tower.h"
@@ -15,6 +17,8 @@ namespace {
 using Made = std::unique_ptr<Scene>;
 
 constexpr Exhibit exhibits[] = {
+    {"gripper", "fingers", 8, [](std::int32_t size, unsigned seed) -> Made { return std::make_unique<Gripper>(size, seed); }},
+    {"bottles", "bottles", 24, [](std::int32_t size, unsigned seed) -> Made { return std::make_unique<BottleLine>(size, seed); }},
     {"pile", "spheres", 100, [](std::int32_t size, unsigned seed) -> Made { return std::make_unique<Pile>(size, seed); }},
     {"chain", "links", 30, [](std::int32_t size, unsigned seed) -> Made { return std::make_unique<Chain>(size, true, 1.0, seed); }},
     {"rope", "links", 60, [](std::int32_t size, unsigned seed) -> Made { return std::make_unique<Rope>(size, seed); }},
