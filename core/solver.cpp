@@ -307,12 +307,8 @@ void Solver::solve(const Problem& problem, const Mask* enabled, const Mask* star
 void Solver::trim() {
   State& s = *state_;
   s.imposed.assign(ordering());
-  for (Stage* stage : {&s.main, &s.exact}) {
-    std::destroy_at(stage);
-    std::construct_at(stage, s.memory);
-  }
-  std::destroy_at(&s.measure);
-  std::construct_at(&s.measure, s.memory);
+  for (Stage* stage : {&s.main, &s.exact}) stage->renew(s.memory);
+  s.measure = Measure(s.memory);
 }
 
 }  // namespace mlcp
