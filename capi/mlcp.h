@@ -676,7 +676,8 @@ typedef struct mlcp_factor_view {
 } mlcp_factor_view;
 
 MLCP_API void mlcp_factor_view_init(mlcp_factor_view *view, size_t struct_size);
-/* MLCP_ERROR_STATE before the first mlcp_analyze or mlcp_solve, and after mlcp_solver_trim. */
+/* That of the last analysis. MLCP_ERROR_STATE where there is none: before the first mlcp_analyze or mlcp_solve, after mlcp_solver_trim, and as long as
+ * AUTO has met small islands alone, which it solves without. */
 MLCP_API mlcp_status mlcp_solver_factor(const mlcp_solver *solver, mlcp_factor_view *factor);
 
 /* One step of the method, recorded when settings.trace is set. */

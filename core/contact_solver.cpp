@@ -322,7 +322,7 @@ void ContactSolver::State::take_certificates(const Problem& problem) {
   }
 }
 
-/// As Solver does, with the errors of cones.
+/// As Solver does, with the errors of cones: an error within the tolerance is a solution, whatever stopped a method on the rows inside.
 void ContactSolver::State::judge_islands(const Problem& problem) {
   Array<mlcp_outcome>& outcome = result.island_outcome;
   scratch.assign(outcome.size(), 0.0);  // the worst of each island
@@ -332,8 +332,11 @@ void ContactSolver::State::judge_islands(const Problem& problem) {
   };
   for (std::int32_t i = 0; i < problem.m(); ++i) note(i, measure.error[i]);
   for (std::size_t c = 0; c < problem.contacts.size(); ++c) note(problem.contacts[c].row, cones.error[c]);
-  for (std::size_t s = 0; s < outcome.size(); ++s)
+  const bool solved = errors.largest() <= settings.tolerance;
+  for (std::size_t s = 0; s < outcome.size(); ++s) {
     if (outcome[s] == MLCP_SOLVED && !(scratch[s] <= settings.tolerance)) outcome[s] = MLCP_ITERATION_LIMIT;
+    if (outcome[s] == MLCP_ITERATION_LIMIT && solved) outcome[s] = MLCP_SOLVED;
+  }
 }
 
 /// What each contact does. Without a cone, and closed: it slides when it has no friction or a tangent row is at its bound.
@@ -386,7 +389,9 @@ void ContactSolver::State::fill(const Problem& problem, mlcp_report& report) con
   report.cone_residual = errors.cone_residual;
   report.worst_contact = errors.worst_contact;
   if (report.outcome != MLCP_NOT_POSITIVE_DEFINITE) report.worst_velocity = errors.worst_velocity;
-  if (report.outcome == MLCP_SOLVED && !(errors.largest() <= settings.tolerance)) report.outcome = MLCP_ITERATION_LIMIT;
+  const bool solved = errors.largest() <= settings.tolerance;
+  if (report.outcome == MLCP_SOLVED && !solved) report.outcome = MLCP_ITERATION_LIMIT;
+  if (report.outcome == MLCP_ITERATION_LIMIT && solved) report.outcome = MLCP_SOLVED;
   report.enabled_rows = report.active_rows = report.redundant_rows = report.islands_failed = 0;
   for (std::int32_t i = 0; i < problem.m(); ++i) {
     report.enabled_rows += result.mask.state[i] != MLCP_ROW_DISABLED;
