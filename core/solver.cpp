@@ -355,14 +355,9 @@ void Solver::solve(const Problem& problem, const Mask* enabled, const Mask* star
 void Solver::trim() {
   State& s = *state_;
   s.imposed.assign(ordering());
-  std::destroy_at(&s.dense);
-  std::construct_at(&s.dense, s.memory);
-  for (Stage* stage : {&s.main, &s.exact}) {
-    std::destroy_at(stage);
-    std::construct_at(stage, s.memory);
-  }
-  std::destroy_at(&s.measure);
-  std::construct_at(&s.measure, s.memory);
+  s.dense = DenseStage(s.memory);
+  for (Stage* stage : {&s.main, &s.exact}) stage->renew(s.memory);
+  s.measure = Measure(s.memory);
 }
 
 }  // namespace mlcp

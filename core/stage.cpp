@@ -52,4 +52,12 @@ void Stage::collect(const Problem& problem, bool only_rows, Result& result) cons
   }
 }
 
+void Stage::renew(const Memory& memory) {
+  analysis = Analysis(memory);
+  basis = Basis(memory);
+  ends = Array<IslandEnd>(memory);
+  tasks_ = Array<std::int32_t>(memory);
+  check_.trim();
+}
+
 }  // namespace mlcp
