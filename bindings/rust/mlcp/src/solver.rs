@@ -1,5 +1,7 @@
 //! Solving, and the results of the last solve.
+use std::ffi::CStr;
 use std::fmt;
+use std::path::{Path, PathBuf};
 use std::ptr::{NonNull, null, null_mut};
 
 use crate::body::Body;
@@ -14,6 +16,7 @@ use crate::problem::Problem;
 use crate::report::{Outcome, Report};
 use crate::request::Request;
 use crate::settings::Settings;
+use crate::snapshot::c_path;
 use crate::strided::StridedMut;
 
 /// A solver: settings, ordering, factor, results and history. Keep one and use it again, so that it knows what it learned.
@@ -140,6 +143,25 @@ impl Solver {
         // SAFETY: a live handle.
         let status = unsafe { sys::mlcp_solver_trim(self.as_mut_ptr()) };
         self.refused(status)
+    }
+
+    /// From now on every solve that does not end solved leaves a snapshot in `folder`, which must be there, until `limit` of them are;
+    /// [`Recording::load`](crate::Recording::load) brings one back. `None`: no longer. A new solver begins with the folder and the limit
+    /// in the environment variables `MLCP_FAILURES` and `MLCP_FAILURES_LIMIT`. A file that cannot be written is no failure of the solve.
+    pub fn keep_failures(&mut self, folder: Option<&Path>, limit: usize) -> Result<()> {
+        let folder = folder.map(c_path).transpose()?;
+        let name = folder.as_ref().map_or(null(), |folder| folder.as_ptr());
+        let limit = int("limit", limit)?;
+        // SAFETY: a live handle, NULL or a string that ends with 0.
+        let status = unsafe { sys::mlcp_solver_keep_failures(self.as_mut_ptr(), name, limit) };
+        self.refused(status)
+    }
+
+    /// The file that the last solve left for [`keep_failures`](Self::keep_failures).
+    pub fn failure_file(&self) -> Option<PathBuf> {
+        // SAFETY: a live handle; the text is lent and copied here.
+        let name = unsafe { CStr::from_ptr(sys::mlcp_solver_failure_file(self.as_ptr())) };
+        (!name.to_bytes().is_empty()).then(|| PathBuf::from(name.to_string_lossy().into_owned()))
     }
 
     /// v, n numbers, m/s or rad/s; prescribed bodies have their given velocity.
