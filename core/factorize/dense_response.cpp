@@ -8,7 +8,7 @@ namespace {
 std::int64_t triangle(std::int64_t size) { return size * (size - 1) / 2; }
 
 std::int64_t real_count(std::int64_t n, std::int64_t m) { return triangle(n) + 3 * n + m * n + m * m + triangle(m) + 6 * m + n + m; }
-std::int64_t integer_count(std::int64_t n, std::int64_t m) { return n + 5 * m; }
+std::int64_t integer_count(std::int64_t n, std::int64_t m) { return n + 4 * m; }
 
 }  // namespace
 
@@ -60,7 +60,7 @@ DenseIsland DenseResponse::island(std::int32_t c) {
   for (double** part : {&s.active.inverse, &s.b, &s.size, &s.lo, &s.hi, &s.gamma}) *part = take(real, m);
   s.x = take(real, n + m);
   s.mass.first = take(integer, n);
-  for (std::int32_t** part : {&s.begin, &s.last, &s.end, &s.active.first, &s.member}) *part = take(integer, m);
+  for (std::int32_t** part : {&s.begin, &s.end, &s.active.first, &s.member}) *part = take(integer, m);
   s.state = states_.data() + place.rows;
   return s;
 }
@@ -75,12 +75,8 @@ void DenseResponse::find_envelopes(const Problem& problem, DenseIsland& s) {
   }
   for (std::int32_t i = 0; i < s.m; ++i) {
     s.begin[i] = s.n;
-    s.last[i] = 0;
     for (std::int32_t t = jacobian.pointers[s.row[i]]; t < jacobian.pointers[s.row[i] + 1]; ++t)
-      if (const std::int32_t p = local_[jacobian.indices[t]]; p >= 0) {
-        s.begin[i] = std::min(s.begin[i], p);
-        s.last[i] = std::max(s.last[i], p + 1);
-      }
+      if (const std::int32_t p = local_[jacobian.indices[t]]; p >= 0) s.begin[i] = std::min(s.begin[i], p);
   }
 }
 
@@ -148,12 +144,11 @@ void DenseResponse::load_row(const Problem& problem, DenseIsland& s, std::int32_
 void DenseResponse::respond(DenseIsland& s, std::int32_t i) {
   double* y = s.y + static_cast<std::int64_t>(i) * s.n;
   const std::int32_t begin = s.begin[i];
-  std::int32_t end = s.last[i];
-  for (std::int32_t p = begin + 1; p < s.n; ++p) {
-    const std::int32_t from = std::max(s.mass.first[p], begin), to = std::min(p, end);
-    if (from >= to) continue;
-    y[p] -= dot(s.mass.row(p) + from, y + from, to - from);
-    end = std::max(end, p + 1);
+  std::int32_t end = begin;  // behind what is not 0 so far: in a robot, the joints of other limbs end before their own begin
+  for (std::int32_t p = begin; p < s.n; ++p) {
+    const std::int32_t from = std::max(s.mass.first[p], begin);
+    if (from < end) y[p] -= dot(s.mass.row(p) + from, y + from, end - from);
+    if (y[p] != 0) end = p + 1;
   }
   s.end[i] = end;
   for (std::int32_t p = begin; p < end; ++p) s.x[p] = y[p] * s.mass.inverse[p];

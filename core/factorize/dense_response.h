@@ -18,7 +18,7 @@ struct DenseIsland {
   DenseLdl mass;
   double *diagonal, *k;                ///< n: Mⱼⱼ; L⁻¹ k
   double* y;                           ///< m rows of n: columns of Y
-  std::int32_t *begin, *last, *end;    ///< m: where a row of y is not 0, and that of J up to last
+  std::int32_t *begin, *end;           ///< m: where a row of y is not 0
   double* a;                           ///< m rows of m, symmetric
   double *b, *size;                    ///< m; size: |r| + |J||v₀| + 2|J||v_given| as in KktValues
   double *lo, *hi;

@@ -20,9 +20,9 @@ void Measure::momentum(const Problem& problem, std::span<const double> v, std::s
   const SparseView mass = problem.mass_view(), jacobian = problem.jacobian_view();
   sum_.resize(n);
   size_.resize(n);
-  for (std::int32_t j = 0; j < n; ++j) {
-    double sum = -problem.momentum[j], size = std::abs(problem.momentum[j]);
-    for (std::int32_t t = mass.pointers[j]; t < mass.pointers[j + 1]; ++t) {
+  for (std::int32_t j = 0, t = 0; j < n; ++j) {
+    double sum = -problem.momentum[j], size = std::abs(sum);
+    for (const std::int32_t end = mass.pointers[j + 1]; t < end; ++t) {
       const double term = mass.values[t] * v[mass.indices[t]];
       sum += term;
       size += std::abs(term);
@@ -38,15 +38,20 @@ void Measure::momentum(const Problem& problem, std::span<const double> v, std::s
       size_[jacobian.indices[t]] += std::abs(term);
     }
   }
-  velocity_error.assign(n, 0.0);
-  for (std::int32_t j = 0; j < n; ++j) {
-    if (problem.prescribed(j)) continue;
-    const double absolute = or_infinite(std::abs(sum_[j]));
-    const double relative = !std::isfinite(size_[j]) ? infinity : or_infinite(size_[j] > 0 ? absolute / size_[j] : absolute);
-    velocity_error[j] = relative;
-    e.momentum_residual = std::max(e.momentum_residual, absolute);
-    if (e.worst_velocity < 0 || relative > e.momentum) e.worst_velocity = j;
-    e.momentum = std::max(e.momentum, relative);
+  velocity_error.resize(n);
+  for (const Body& body : problem.bodies) {
+    for (std::int32_t j = body.offset; j < body.offset + body.dimension; ++j) {
+      if (body.prescribed) {
+        velocity_error[j] = 0;
+        continue;
+      }
+      const double absolute = or_infinite(std::abs(sum_[j])), size = size_[j];
+      const double relative = size > 0 && size < infinity ? absolute / size : size == 0 ? absolute : infinity;
+      velocity_error[j] = relative;
+      e.momentum_residual = std::max(e.momentum_residual, absolute);
+      if (e.worst_velocity < 0 || relative > e.momentum || (relative == e.momentum && j < e.worst_velocity)) e.worst_velocity = j;
+      e.momentum = std::max(e.momentum, relative);
+    }
   }
 }
 
@@ -55,13 +60,17 @@ void Measure::rows(const Problem& problem, const Mask* enabled, std::span<const 
   const std::int32_t n = problem.n(), m = problem.m();
   const SparseView mass = problem.mass_view(), jacobian = problem.jacobian_view(), sigma = problem.compliance_view();
   // size_ := 1/M_jj, 0 for prescribed velocities
-  size_.assign(n, 0.0);
-  for (std::int32_t j = 0; j < n; ++j) {
-    if (problem.prescribed(j)) continue;
-    double diagonal = 0;
-    for (std::int32_t t = mass.pointers[j]; t < mass.pointers[j + 1]; ++t)
-      if (mass.indices[t] == j) diagonal = mass.values[t];
-    size_[j] = diagonal > 0 ? diagonal : 1;
+  size_.resize(n);
+  for (const Body& body : problem.bodies) {
+    for (std::int32_t j = body.offset; j < body.offset + body.dimension; ++j) {
+      double diagonal = 0;
+      if (!body.sparse)  // a dense block
+        diagonal = mass.values[mass.pointers[j] + j - body.offset];
+      else
+        for (std::int32_t t = mass.pointers[j]; t < mass.pointers[j + 1]; ++t)
+          if (mass.indices[t] == j) diagonal = mass.values[t];
+      size_[j] = body.prescribed ? 0 : diagonal > 0 ? diagonal : 1;
+    }
   }
   w.assign(m, 0.0);
   scale.assign(m, 0.0);

@@ -31,12 +31,8 @@ TEST(DenseResponse, IsTheReducedProblemOfEachComponent) {
     Loaded loaded(p);
     const Reduced reduced = reduce(dense(p));
     for (int c = 0; c < loaded.components.count(); ++c) {
-      const bool good = loaded.response.compute(p, c);
+      ASSERT_TRUE(loaded.response.compute(p, c)) << "seed " << seed;
       const mlcp::DenseIsland s = loaded.response.island(c);
-      bool responds = true;
-      for (int i = 0; i < s.m; ++i) responds &= reduced.A(s.row[i], s.row[i]) > 0;
-      ASSERT_EQ(good, responds) << "seed " << seed;
-      if (!good) continue;
       for (int i = 0; i < s.m; ++i) {
         ASSERT_NEAR(s.b[i], static_cast<double>(reduced.b[s.row[i]]), 1e-12 * (1 + s.size[i])) << "seed " << seed;
         for (int j = 0; j < s.m; ++j) {
