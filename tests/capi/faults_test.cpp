@@ -2,8 +2,10 @@
 #include <dirent.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <fstream>
@@ -193,6 +195,46 @@ TEST_P(EveryWay, InterruptedAtEachCallOfTheCallback) {
     ASSERT_EQ(mlcp_solve(fresh.get(), problem.get(), nullptr, nothing.get(), nullptr), MLCP_OK);
     EXPECT_EQ(impulses(solver.get()), impulses(fresh.get())) << n;
   }
+}
+
+/// Of this thread: what others do on the same processor is no overshoot.
+double processor_seconds() {
+  timespec now;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+TEST(Faults, TimeLimitIsKeptToTenMillisecondsAndOneFactorization) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the sanitizer takes its own time";
+#endif
+  double worst = 0;
+  for (const bool friction : {false, true}) {
+    ProblemHandle problem = make_heap(1500, nullptr, friction);
+    mlcp_settings settings;
+    mlcp_settings_init(&settings, sizeof settings);
+    mlcp_report report;
+    mlcp_report_init(&report, sizeof report);
+    settings.max_iterations = 3;  // enough to see what a factorization takes
+    settings.max_shifts = 2;
+    SolverHandle plain = make_solver(&settings);
+    ASSERT_EQ(mlcp_solve(plain.get(), problem.get(), nullptr, nullptr, &report), MLCP_OK);
+    ASSERT_GT(report.factorizations, 0);
+    const double factorization = report.seconds_factorize / static_cast<double>(report.factorizations);
+    settings.max_iterations = 0;
+    settings.max_shifts = 0;
+    for (const double limit : {1e-4, 1e-3, 5e-3, 2e-2}) {
+      settings.max_seconds = limit;
+      SolverHandle solver = make_solver(&settings);
+      const double begin = processor_seconds();
+      ASSERT_EQ(mlcp_solve(solver.get(), problem.get(), nullptr, nullptr, &report), MLCP_OK);
+      const double overshoot = processor_seconds() - begin - limit;
+      worst = std::max(worst, overshoot - factorization);
+      EXPECT_TRUE(report.outcome == MLCP_TIME_LIMIT || report.outcome == MLCP_SOLVED || report.outcome == MLCP_INFEASIBLE) << report.outcome;
+      EXPECT_LE(overshoot, 0.010 + factorization) << "limit " << limit << ", friction " << friction << ", one factorization " << factorization;
+    }
+  }
+  RecordProperty("milliseconds_over_one_factorization", std::to_string(1e3 * worst));
 }
 
 TEST(Faults, MemoryRunsOutAtEachCallOfASnapshotWithEverythingInIt) {

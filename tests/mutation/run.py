@@ -104,8 +104,10 @@ def survives(work: pathlib.Path, name: str) -> str:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build_folder", type=pathlib.Path)
-    parser.add_argument("names", nargs="*", choices=[[], *MUTATIONS], metavar="NAME")
+    parser.add_argument("names", nargs="*", metavar="NAME")
     arguments = parser.parse_args()
+    if unknown := [name for name in arguments.names if name not in MUTATIONS]:
+        parser.error(f"no such mutation: {', '.join(unknown)}")
     work = arguments.build_folder.resolve()
     copy_tree(work)
     configure = ["cmake", "-S", work, "-B", work / "build", "-DCMAKE_BUILD_TYPE=Release", "-DMLCP_BUILD_TESTS=ON", "-DMLCP_BUILD_EXAMPLES=ON", "-DMLCP_INSTALL=OFF"]
