@@ -80,7 +80,7 @@ fn a_solve_that_fails_leaves_a_snapshot_that_fails_again() -> mlcp::Result<()> {
     std::fs::create_dir(&folder).unwrap();
     let (mut problem, mut solver) = (problem()?, Solver::new()?);
     solver.keep_failures(Some(&folder), 1)?;
-    solver.solve(&problem)?;
+    assert!(solver.solve(&problem)?.is_solved());
     assert_eq!(solver.failure_file(), None);
     problem.add_row(&Row::bilateral(&[0], &[1.0]).r(1.0))?;
     problem.add_row(&Row::bilateral(&[0], &[1.0]).r(2.0))?;
