@@ -346,7 +346,7 @@ void Solver::solve(const Problem& problem, const Mask* enabled, const Mask* star
   s.result.mask.key.assign(problem.key.span());
   s.result.mask.impulse.assign(s.result.gamma.span());
   s.fill(problem, report, counts);
-  if (report.outcome == MLCP_ITERATION_LIMIT && s.result.island_outcome.empty()) report.outcome = watch.stopped();
+  if (report.outcome == MLCP_ITERATION_LIMIT && s.result.island_outcome.empty() && watch.stopped() != MLCP_SOLVED) report.outcome = watch.stopped();
   report.warm = start != nullptr;
   report.seconds_solve = after_solve - report.seconds_analyze - counts.seconds_factorize;
   report.seconds = watch.seconds();
