@@ -186,8 +186,10 @@ void ContactSolver::State::solve_with(const Problem& problem, const Mask* mask, 
   double seconds_measure = 0;
   errors = Errors{};
   const std::int32_t most = settings.max_shifts > 0 ? settings.max_shifts : default_shifts;
+  solver.set_settings(settings);
   while (true) {
-    if ((stopped = spend(total, since(begin))) != MLCP_SOLVED) break;
+    // the first solve always takes place, if only to be stopped: it leaves a point
+    if (shifts > 0 && (stopped = spend(total, since(begin))) != MLCP_SOLVED) break;
     solver.solve(rows.inner, &rows.enabled, &rows.start, one);
     accumulate(one, total);
     const Result& inner = solver.result();
@@ -406,10 +408,8 @@ void ContactSolver::State::fill(const Problem& problem, mlcp_report& report) con
 void ContactSolver::trim() {
   State& s = *state_;
   s.solver.trim();
-  const auto renew = [&](auto& part) {
-    std::destroy_at(&part);
-    std::construct_at(&part, s.memory);
-  };
+  // the new one is there before the old one goes: there may be no memory for it
+  const auto renew = [&](auto& part) { part = std::remove_reference_t<decltype(part)>(s.memory); };
   renew(s.generators);
   renew(s.rows);
   renew(s.slip);

@@ -1,16 +1,14 @@
 #pragma once
 #include <array>
 
-#include "scene.h"
-#include "vector.h"
+#include "rigid_scene.h"
 
 namespace scenes {
 
-struct Box {
-  Point half_extent;  // m
-  Point centre;       // m, z up
-  double mass;        // kg
-  Rotation rotation = {};
+struct Brick {
+  Box box;
+  Point centre;  // m
+  double mass;   // kg
 };
 
 /// Four points of `upper`'s underside, in its own frame, that stand on the top face of `lower` (or on the ground z = 0).
@@ -23,18 +21,16 @@ struct Support {
 /// point, one too many for every pair. That is what a collision detector hands over, and what makes A of (2.8) singular.
 ///
 /// Leaves out every other contact (sides, edges, a box that slides off its neighbour) and friction: right while the stack stands.
-class BoxStack : public Scene {
+class BoxStack : public RigidScene {
  public:
-  BoxStack(std::vector<Box> boxes, std::vector<Support> supports);
+  BoxStack(std::span<const Brick> bricks, std::vector<Support> supports);
 
-  std::span<const Box> boxes() const { return boxes_; }
+  using RigidScene::bodies;
   std::span<const Support> supports() const { return supports_; }
   void draw(Drawing& to) const override;
 
  protected:
   void add_rows(RowList& rows) const override;
-  void add_forces(std::span<double> force) const override;
-  void advance(double h, std::span<const double> v) override;
 
  private:
   std::vector<Box> boxes_;

@@ -87,6 +87,12 @@ void Chain::advance(double h, std::span<const double> v) {
   }
 }
 
+double Chain::potential_energy() const {
+  double sum = 0;
+  for (const Link& link : links_) sum += gravity * link.mass * link.y;
+  return sum;
+}
+
 void Chain::draw(Drawing& to) const {
   Drawing::Path& chain = to.paths.emplace_back(Drawing::Path{{0, 0, 0}});
   Point pin = {0, 0, 0};

@@ -18,6 +18,7 @@ class Chain : public Scene {
   void add_rows(RowList& rows) const override;
   void add_forces(std::span<double> force) const override;
   void advance(double h, std::span<const double> v) override;
+  double potential_energy() const override;
 
  private:
   /// Positions, and the mass that Scene is told of.

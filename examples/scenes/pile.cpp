@@ -85,6 +85,12 @@ void Pile::advance(double h, std::span<const double> v) {
   }
 }
 
+double Pile::potential_energy() const {
+  double sum = 0;
+  for (std::size_t i = 0; i < packing_.centre.size(); ++i) sum += gravity * mass_of(packing_.radius[i]) * packing_.centre[i][2];
+  return sum;
+}
+
 void Pile::draw(Drawing& to) const {
   for (std::size_t i = 0; i < packing_.centre.size(); ++i) to.spheres.push_back({packing_.centre[i], packing_.radius[i]});
   const double s = packing_.side;

@@ -25,6 +25,7 @@ class Pile : public Scene {
   void add_rows(RowList& rows) const override;
   void add_forces(std::span<double> force) const override;
   void advance(double h, std::span<const double> v) override;
+  double potential_energy() const override;
 
  private:
   explicit Pile(Packing&& packing);

@@ -82,6 +82,12 @@ void Rope::advance(double h, std::span<const double> v) {
   }
 }
 
+double Rope::potential_energy() const {
+  double sum = 0;
+  for (const Node& node : nodes_) sum += gravity * node_mass * node.y;
+  return sum;
+}
+
 void Rope::draw(Drawing& to) const {
   const auto in_space = [](double x, double y) { return Point{x, 0, y}; };
   Drawing::Path& rope = to.paths.emplace_back();

@@ -1,5 +1,6 @@
 #include "row_list.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace scenes {
@@ -9,18 +10,24 @@ std::uint64_t row_key(std::int32_t body_a, std::int32_t body_b, std::int32_t fea
   return part(body_a) << 40 | part(body_b) << 16 | (part(feature) - 1);
 }
 
-void RowList::add(RowKind kind, std::int32_t body_a, std::int32_t body_b, std::span<const double> jacobian_a,
-                  std::span<const double> jacobian_b, double phi, std::int32_t feature) {
+void RowList::add(Role role, std::int32_t body_a, std::int32_t body_b, std::span<const double> jacobian_a,
+                  std::span<const double> jacobian_b, double phi, double limit, std::int32_t feature) {
   const auto dimension = static_cast<std::size_t>(dimension_);
   const std::size_t start = jacobian_.size();
   jacobian_.resize(start + 2 * dimension);
   for (std::size_t i = 0; i < jacobian_a.size(); ++i) jacobian_[start + i] = jacobian_a[i];
   for (std::size_t i = 0; i < jacobian_b.size(); ++i) jacobian_[start + dimension + i] = jacobian_b[i];
-  kind_.push_back(kind);
+  role_.push_back(role);
   body_a_.push_back(body_a);
   body_b_.push_back(body_b);
   phi_.push_back(phi);
+  limit_.push_back(limit);
   key_.push_back(row_key(body_a, body_b, feature));
+}
+
+void RowList::add(RowKind kind, std::int32_t body_a, std::int32_t body_b, std::span<const double> jacobian_a,
+                  std::span<const double> jacobian_b, double phi, std::int32_t feature) {
+  add(kind == RowKind::Joint ? Role::Joint : Role::Contact, body_a, body_b, jacobian_a, jacobian_b, phi, INFINITY, feature);
 }
 
 void RowList::add(RowKind kind, std::int32_t body_a, std::int32_t body_b, std::initializer_list<double> jacobian_a,
@@ -29,13 +36,36 @@ void RowList::add(RowKind kind, std::int32_t body_a, std::int32_t body_b, std::i
   add(kind, body_a, body_b, span(jacobian_a), span(jacobian_b), phi, feature);
 }
 
+void RowList::add_motor(std::int32_t body_a, std::int32_t body_b, std::span<const double> jacobian_a, std::span<const double> jacobian_b,
+                        double speed, double force, std::int32_t feature) {
+  add(Role::Motor, body_a, body_b, jacobian_a, jacobian_b, speed, force, feature);
+}
+
+double RowList::deepest() const {
+  double depth = 0;
+  for (std::size_t i = 0; i < phi_.size(); ++i)
+    if (role_[i] == Role::Contact) depth = std::max(depth, -phi_[i]);
+  return depth;
+}
+
+double RowList::drift() const {
+  double worst = 0;
+  for (std::size_t i = 0; i < phi_.size(); ++i)
+    if (role_[i] == Role::Joint) worst = std::max(worst, std::fabs(phi_[i]));
+  return worst;
+}
+
 void RowList::add_to(const Problem& problem, double h, double stabilisation) const {
   if (phi_.empty()) return;
-  std::vector<double> r(phi_.size()), lo(phi_.size());
+  std::vector<double> r(phi_.size()), lo(phi_.size()), hi(phi_.size());
   for (std::size_t i = 0; i < phi_.size(); ++i) {
-    const bool contact = kind_[i] == RowKind::Contact;
-    lo[i] = contact ? 0.0 : -INFINITY;
-    check(mlcp_timestep_rows(h, stabilisation, contact, 1, &phi_[i], nullptr, &r[i]));
+    const bool contact = role_[i] == Role::Contact;
+    hi[i] = h * limit_[i];
+    lo[i] = contact ? 0.0 : -hi[i];
+    if (role_[i] == Role::Motor)
+      r[i] = phi_[i];
+    else
+      check(mlcp_timestep_rows(h, stabilisation, contact, 1, &phi_[i], nullptr, &r[i]));
   }
   mlcp_rows rows;
   mlcp_rows_init(&rows, sizeof rows);
@@ -47,6 +77,7 @@ void RowList::add_to(const Problem& problem, double h, double stabilisation) con
   rows.jacobian_a_stride = rows.jacobian_b_stride = 2 * dimension_ * static_cast<std::ptrdiff_t>(sizeof(double));
   rows.r = r.data();
   rows.lo = lo.data();
+  rows.hi = hi.data();
   rows.key = key_.data();
   check(mlcp_problem_rows_add(problem.get(), &rows, nullptr), problem);
 }

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "drawing.h"
 #include "handles.h"
 
 namespace scenes {
@@ -14,7 +15,7 @@ using namespace handles;
 /// Bodies below 2²⁴ − 2, features below 2¹⁶ − 1.
 std::uint64_t row_key(std::int32_t body_a, std::int32_t body_b, std::int32_t feature);
 
-enum class RowKind { Joint, Contact };
+enum class RowKind { Joint, Contact };  // bilateral and unilateral; a contact's row is also a limit's
 
 /// Rows of one step, gathered and then handed over in one bulk call. All bodies have the same dimension.
 class RowList {
@@ -28,18 +29,35 @@ class RowList {
   void add(RowKind kind, std::int32_t body_a, std::int32_t body_b, std::initializer_list<double> jacobian_a,
            std::initializer_list<double> jacobian_b, double phi, std::int32_t feature);
 
+  /// A row that drives its rate towards `speed` with at most `force`, in m/s and N, or rad/s and N m.
+  void add_motor(std::int32_t body_a, std::int32_t body_b, std::span<const double> jacobian_a, std::span<const double> jacobian_b,
+                 double speed, double force, std::int32_t feature);
+  /// Where the row that was added last acts, and along what on its body b.
+  void acts(const Drawing::Action& action) { actions_.push_back(action); }
+
   /// r by the time stepping of paper (2.5) with step h and stabilisation K, then mlcp_problem_rows_add.
   void add_to(const Problem& problem, double h, double stabilisation) const;
 
+  /// Adds the actions that were told.
+  void draw(Drawing& to) const { to.actions.insert(to.actions.end(), actions_.begin(), actions_.end()); }
+
   std::int32_t count() const { return static_cast<std::int32_t>(phi_.size()); }
+  double deepest() const;  // −φ of the deepest contact or limit, at least 0
+  double drift() const;    // |φ| of the worst joint
 
  private:
+  enum class Role { Joint, Contact, Motor };
+  void add(Role role, std::int32_t body_a, std::int32_t body_b, std::span<const double> jacobian_a, std::span<const double> jacobian_b,
+           double phi, double limit, std::int32_t feature);
+
   std::int32_t dimension_;
-  std::vector<RowKind> kind_;
+  std::vector<Role> role_;
   std::vector<std::int32_t> body_a_, body_b_;
   std::vector<double> jacobian_;  // 2·dimension a row: a's block, b's block
-  std::vector<double> phi_;
+  std::vector<double> phi_;       // of a motor: its speed
+  std::vector<double> limit_;     // of a motor: its largest force
   std::vector<std::uint64_t> key_;
+  std::vector<Drawing::Action> actions_;
 };
 
 }  // namespace scenes

@@ -2,6 +2,7 @@
 #include <span>
 #include <vector>
 
+#include "contact_list.h"
 #include "drawing.h"
 #include "handles.h"
 #include "row_list.h"
@@ -12,7 +13,7 @@ constexpr double gravity = 9.81;       // m/s²
 constexpr double default_step = 0.01;  // s
 
 /// Bodies of one dimension with their velocities, stepped by paper (2.5). What the bodies are, where they stand and what touches
-/// is known to the derived scene alone. Bodies stay in the problem over the steps, rows are made anew in each.
+/// is known to the derived scene alone. Bodies stay in the problem over the steps, rows and contacts are made anew in each.
 class Scene {
  public:
   virtual ~Scene() = default;
@@ -28,6 +29,17 @@ class Scene {
   const mlcp_solver* solver() const { return solver_.get(); }
   std::span<const double> velocities() const { return velocity_; }
   void use(const mlcp_settings& settings);
+  /// The law of every contact with friction from now on. Until then convex pyramids of 8 facets (Anitescu 2006), as the paper proposes: what
+  /// slides opens by µ times its way in a step, which is little where things roll or stick.
+  void use(const FrictionLaw& law) { law_ = law; }
+
+  /// −gap of the deepest contact or limit, at least 0, and |φ| of the worst joint, at the present positions; m, or rad where a row turns.
+  struct Violation {
+    double penetration, drift;
+  };
+  Violation violation() const;
+  /// Kinetic and potential, J.
+  double energy() const;
 
   /// Adds what there is to see at the present positions, and for each row that prepare() would make now where it acts.
   virtual void draw(Drawing& to) const = 0;
@@ -36,29 +48,39 @@ class Scene {
   static Problem problem_of_step(Scene&& scene, double h = default_step);
 
  protected:
-  /// masses: one dense block of dimension² numbers a body.
-  Scene(std::int32_t dimension, std::span<const double> masses);
+  /// masses: one dense block of dimension² numbers a body. rows_of_contact: 2 in the plane, 3 in space.
+  Scene(std::int32_t dimension, std::span<const double> masses, std::int32_t rows_of_contact = 3);
 
   /// Every constraint near the present positions. Same rows, same order, same keys for the same positions.
   virtual void add_rows(RowList& rows) const = 0;
+  /// Every contact with friction near the present positions; its rows come after all others. None where a scene has no friction.
+  virtual void add_contacts(ContactList&) const {}
   /// Adds the generalised forces at the present state, the gyroscopic ones included; `force` comes in as 0.
   virtual void add_forces(std::span<double> force) const = 0;
   /// q ← q + h v
   virtual void advance(double h, std::span<const double> v) = 0;
+  virtual double potential_energy() const = 0;
 
   void set_mass(std::int32_t body, std::span<const double> mass);
   std::span<double> velocity(std::int32_t body);
+  /// From now on the body moves as it is told.
+  void prescribe(std::int32_t body, std::span<const double> velocity);
+  double time() const { return time_; }  // since the start, s
+
+  RowList listed_rows() const;
+  ContactList listed_contacts() const;
 
   /// K of paper (2.5) for joints and for contacts that overlap.
   double stabilisation = 0.2;
 
  private:
-  std::int32_t dimension_;
+  std::int32_t dimension_, rows_of_contact_;
+  FrictionLaw law_;
   Problem problem_;
   Solver solver_;
   Mask start_;
   bool stepped_ = false;
-  double h_ = 0;
+  double h_ = 0, time_ = 0;
   std::vector<double> velocity_, force_;
   mlcp_report report_;
 };

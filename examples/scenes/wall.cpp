@@ -30,10 +30,10 @@ std::vector<Span> course(int width, int level) {
   return spans;
 }
 
-Box brick_at(const Span& span, int level) {
+Brick brick_at(const Span& span, int level) {
   const double half = 0.5 * (span.to - span.from);
   const double mass = density * 8 * half * half_depth * half_height;
-  return {{half, half_depth, half_height}, {span.middle(), 0, (2 * level + 1) * half_height}, mass};
+  return {{{half, half_depth, half_height}}, {span.middle(), 0, (2 * level + 1) * half_height}, mass};
 }
 
 /// The face that both share, seen from the upper brick's centre.
@@ -47,7 +47,7 @@ Support support_of(std::int32_t lower, std::int32_t upper, const Span& below, co
 }  // namespace
 
 BoxStack wall_scene(int width, int height) {
-  std::vector<Box> bricks;
+  std::vector<Brick> bricks;
   std::vector<Support> supports;
   std::vector<Span> below;
   std::int32_t first_below = 0;
@@ -66,7 +66,7 @@ BoxStack wall_scene(int width, int height) {
     below = spans;
     first_below = first;
   }
-  return BoxStack(std::move(bricks), std::move(supports));
+  return BoxStack(bricks, std::move(supports));
 }
 
 Problem wall(int width, int height) { return Scene::problem_of_step(wall_scene(width, height)); }
