@@ -11,6 +11,7 @@
 #include "rope.h"
 #include "tower.h"
 #include "wall.h"
+#include "wall_of_boxes.h"
 
 namespace scenes {
 namespace {
@@ -27,6 +28,7 @@ constexpr Exhibit exhibits[] = {
     {"tower", "boxes", 10, {60}, [](std::int32_t size, unsigned) -> Made { return Made(new BoxStack(tower_scene(size))); }},
     {"wall", "bricks a course, and courses", 8, {60},
      [](std::int32_t size, unsigned) -> Made { return Made(new BoxStack(wall_scene(size, size))); }},
+    {"wall_of_boxes", "boxes a course, and courses", 5, {120, 2}, [](std::int32_t size, unsigned) -> Made { return std::make_unique<WallOfBoxes>(size); }},
 };
 
 }  // namespace

@@ -23,6 +23,7 @@ class Gripper : public RigidScene {
   /// The motor closes and holds, then opens; s.
   static constexpr double period = 1.6, hold_until = 1.0;
 
+  bool driven() const override { return true; }
   void draw(Drawing& to) const override;
 
  protected:
