@@ -5,6 +5,7 @@
 #include <new>
 #include <thread>
 
+#include "dense_stage.h"
 #include "measure/errors.h"
 #include "stage.h"
 
@@ -35,6 +36,7 @@ void check_mask(const Mask* mask, const Problem& problem, const char* name) {
 struct Solver::State {
   Memory memory;
   Settings settings;
+  DenseStage dense;  ///< tried first where every island is small
   Stage main;
   Stage exact;  ///< rows after velocities everywhere: for islands that newton gave up in another order, and for canonical answers
   Pool pool;
@@ -47,15 +49,21 @@ struct Solver::State {
   std::int32_t indefinite = -1;  ///< the velocity whose pivot is not positive
 
   State(const Settings& s, const Memory& m)
-      : memory(m), settings(s), main(m), exact(m), pool(m), measure(m), result(m), imposed(m), given_up(m), kept(m) {}
+      : memory(m), settings(s), dense(m), main(m), exact(m), pool(m), measure(m), result(m), imposed(m), given_up(m), kept(m) {}
 
-  bool analyze(const Problem& problem, const Mask* enabled);
-  void solve_free_velocities(const Problem& problem);
+  bool analyze(const Problem& problem, const Mask* enabled, const Poll& poll = {});
+  void clear_result(const Problem& problem);
+  bool solve_small(const SolveInput& input, const Mask* start, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts);
+  void solve_large(const SolveInput& input, const Mask* start, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts);
+  void find_row_islands(const SolveInput& input);
+  void solve_free_velocities(const Problem& problem, const Array<std::int32_t>& free);
   void read_ends(const Stage& stage, const Problem& problem, bool only_rows, mlcp_report& report, Counts& counts);
-  void collect(const Problem& problem);
+  void take_given_velocities(const Problem& problem);
+  void collect(const SolveInput& input);
   void rescue(const SolveInput& input, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts);
-  void make_canonical(const SolveInput& input);
-  void judge(const Problem& problem, const Mask* enabled);
+  void make_canonical(const SolveInput& input, Watch& watch);
+  void look_at_result(const SolveInput& input);
+  void judge(const SolveInput& input);
   void fill(const Problem& problem, mlcp_report& report, const Counts& counts) const;
 };
 
@@ -84,11 +92,11 @@ const Analysis& Solver::analysis() const { return state_->main.analysis; }
 std::span<const std::int32_t> Solver::ordering() const { return state_->main.analysis.ordering.order.span(); }
 void Solver::impose_ordering(std::span<const std::int32_t> ordering) { state_->imposed.assign(ordering); }
 
-bool Solver::State::analyze(const Problem& problem, const Mask* enabled) {
+bool Solver::State::analyze(const Problem& problem, const Mask* enabled, const Poll& poll) {
   check_mask(enabled, problem, "enabled");
   const bool rows_last = settings.method == MLCP_METHOD_SIMPLEX;
   if (imposed.empty() && main.analysis.covers(problem, enabled, rows_last)) return false;
-  main.analysis.run(problem, enabled, rows_last, imposed.span());
+  main.analysis.run(problem, enabled, rows_last, imposed.span(), poll);
   imposed.clear();
   return true;
 }
@@ -96,8 +104,8 @@ bool Solver::State::analyze(const Problem& problem, const Mask* enabled) {
 void Solver::analyze(const Problem& problem, const Mask* enabled) { state_->analyze(problem, enabled); }
 
 /// v = k / M where nothing couples to anything.
-void Solver::State::solve_free_velocities(const Problem& problem) {
-  for (const std::int32_t j : main.analysis.ordering.free_velocity) {
+void Solver::State::solve_free_velocities(const Problem& problem, const Array<std::int32_t>& free) {
+  for (const std::int32_t j : free) {
     const double mass = problem.mass.values[problem.mass.pointers[j]];
     if (!(mass > 0)) indefinite = j;
     result.v[j] = mass > 0 ? problem.momentum[j] / mass : 0;
@@ -127,13 +135,19 @@ void Solver::State::read_ends(const Stage& stage, const Problem& problem, bool o
   }
 }
 
-/// From elimination order back to the caller's.
-void Solver::State::collect(const Problem& problem) {
-  const std::int32_t n = problem.n(), m = problem.m();
-  for (std::int32_t j = 0; j < n; ++j)
-    if (problem.prescribed(j)) result.v[j] = problem.given_velocity[j];
-  result.mask.state.assign(m, MLCP_ROW_DISABLED);
-  result.mask.key.assign(problem.key.span());
+void Solver::State::take_given_velocities(const Problem& problem) {
+  for (const Body& body : problem.bodies)
+    if (body.prescribed) std::copy_n(problem.given_velocity.begin() + body.offset, body.dimension, result.v.begin() + body.offset);
+}
+
+/// From elimination order back to the caller's. Rows that a stopped analysis has left out rest.
+void Solver::State::collect(const SolveInput& input) {
+  const Problem& problem = input.problem;
+  const std::int32_t m = problem.m();
+  take_given_velocities(problem);
+  result.mask.state.assign(m, MLCP_ROW_AT_LOWER);
+  for (std::int32_t i = 0; i < m; ++i)
+    if (input.enabled && input.enabled->state[i] == MLCP_ROW_DISABLED) result.mask.state[i] = MLCP_ROW_DISABLED;
   result.gamma.assign(m, 0.0);
   main.collect(problem, false, result);
 }
@@ -152,7 +166,13 @@ void Solver::State::rescue(const SolveInput& input, Watch& watch, Crew& crew, ml
   Settings pivoting = settings;
   pivoting.method = MLCP_METHOD_SIMPLEX;
   const SolveInput part{problem, &given_up, pivoting};
-  exact.analysis.run(problem, &given_up, true, {});
+  try {
+    exact.analysis.run(problem, &given_up, true, {}, watch.poll());
+  } catch (const Stopped&) {
+    for (std::size_t s = 0; s < main.ends.size(); ++s)
+      if (main.ends[s].crowded) result.island_outcome[s] = watch.stopped();
+    return;
+  }
   exact.load(part, &result.mask);
   exact.solve(part, watch, crew, false, result);
   read_ends(exact, problem, true, report, counts);
@@ -160,10 +180,14 @@ void Solver::State::rescue(const SolveInput& input, Watch& watch, Crew& crew, ml
 }
 
 /// The answer from the active set alone: ordered, factored and solved as if nothing had been before. Kept if it is as good as what there is.
-void Solver::State::make_canonical(const SolveInput& input) {
-  exact.analysis.run(input.problem, input.enabled, true, {});
-  exact.load(input, &result.mask);
-  if (!exact.settle(input)) return;
+void Solver::State::make_canonical(const SolveInput& input, Watch& watch) {
+  try {
+    exact.analysis.run(input.problem, input.enabled, true, {}, watch.poll());
+    exact.load(input, &result.mask);
+    if (!exact.settle(watch)) return;
+  } catch (const Stopped&) {
+    return;
+  }
   const double before = errors.largest();
   given_up.state.assign(result.mask.state.span());
   given_up.impulse.assign(result.gamma.span());
@@ -176,10 +200,15 @@ void Solver::State::make_canonical(const SolveInput& input) {
   result.mask.state.assign(given_up.state.span());
 }
 
-/// Success is what the caller's own numbers say, island by island; an error within the tolerance is a solution whatever stopped the method.
-void Solver::State::judge(const Problem& problem, const Mask* enabled) {
-  errors = measure.run(problem, enabled, result.v.span(), result.gamma.span());
+void Solver::State::look_at_result(const SolveInput& input) {
+  errors = measure.run(input.problem, input.enabled, result.v.span(), result.gamma.span());
   result.w.assign(measure.w.span());
+}
+
+/// Success is what the caller's own numbers say, island by island; an error within the tolerance is a solution whatever stopped the method.
+void Solver::State::judge(const SolveInput& input) {
+  const Problem& problem = input.problem;
+  look_at_result(input);
   const KktPattern& pattern = main.analysis.pattern;
   const auto& islands = main.analysis.symbolic.islands;
   for (std::size_t s = 0; s < islands.size(); ++s) {
@@ -226,9 +255,70 @@ void Solver::State::fill(const Problem& problem, mlcp_report& report, const Coun
   report.factorizations = counts.factorizations;
   report.refinements = counts.refinements;
   report.work = counts.work;
-  report.factor_entries = main.analysis.symbolic.entries();
   report.seconds_factorize = counts.seconds_factorize;
   report.refactorized_for_drift = counts.drifts;
+}
+
+void Solver::State::clear_result(const Problem& problem) {
+  indefinite = -1;
+  result.v.assign(problem.n(), 0.0);
+  result.redundant.assign(problem.m(), 0);
+  result.trace.clear();
+  result.certificates.clear();
+  result.certificate_row.clear();
+  result.certificate_y.clear();
+}
+
+/// Where every island is small.  false: it is not, or it could not be solved that way.
+bool Solver::State::solve_small(const SolveInput& input, const Mask* start, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts) {
+  if (!dense.takes(input)) return false;
+  const double after_analysis = watch.seconds();
+  const Problem& problem = input.problem;
+  clear_result(problem);
+  take_given_velocities(problem);
+  solve_free_velocities(problem, dense.components.free_velocity);
+  if (indefinite >= 0 || !dense.solve(input, start, watch, crew, measure, result, errors, counts)) return false;
+  result.w.assign(measure.w.span());
+  result.island_outcome.assign(dense.components.count(), MLCP_SOLVED);
+  result.row_island.assign(dense.components.of_row.span());
+  report.method = MLCP_METHOD_NEWTON;
+  report.analyzed = !dense.knew();
+  report.seconds_analyze = report.analyzed ? after_analysis : 0;
+  report.factor_entries = dense.entries();
+  return true;
+}
+
+void Solver::State::find_row_islands(const SolveInput& input) {
+  const auto& islands = main.analysis.symbolic.islands;
+  const KktPattern& pattern = main.analysis.pattern;
+  result.row_island.assign(input.problem.m(), -1);
+  for (std::size_t s = 0; s < islands.size(); ++s)
+    for (std::int32_t o = islands[s].first_row; o < islands[s].last_row; ++o) {
+      const std::int32_t row = pattern.node[pattern.row_position[o]] - input.problem.n();
+      if (!input.enabled || input.enabled->state[row] != MLCP_ROW_DISABLED) result.row_island[row] = static_cast<std::int32_t>(s);
+    }
+}
+
+void Solver::State::solve_large(const SolveInput& input, const Mask* start, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts) {
+  const Problem& problem = input.problem;
+  const double before = watch.seconds();
+  report.analyzed = true;
+  try {
+    report.analyzed = analyze(problem, input.enabled, watch.poll());
+  } catch (const Stopped&) {  // the analysis of nothing leads to the answer 0, which is judged like any other
+  }
+  report.seconds_analyze = report.analyzed ? watch.seconds() - before : 0;
+  clear_result(problem);
+  result.island_outcome.assign(main.analysis.symbolic.islands.size(), MLCP_SOLVED);
+  find_row_islands(input);
+  main.load(input, start);
+  main.solve(input, watch, crew, start != nullptr, result);
+  read_ends(main, problem, false, report, counts);
+  solve_free_velocities(problem, main.analysis.ordering.free_velocity);
+  collect(input);
+  rescue(input, watch, crew, report, counts);
+  judge(input);
+  report.factor_entries = main.analysis.symbolic.entries();
 }
 
 void Solver::solve(const Problem& problem, const Mask* enabled, const Mask* start, mlcp_report& report) {
@@ -238,48 +328,24 @@ void Solver::solve(const Problem& problem, const Mask* enabled, const Mask* star
   s.result.valid = false;
   s.pool.resize(s.settings.parallel_for ? 1 : s.settings.num_threads > 0 ? s.settings.num_threads : static_cast<std::int32_t>(std::max(1u, std::thread::hardware_concurrency())));
   Watch watch(s.settings);
-  Crew crew(s.settings, s.pool);
+  Crew crew(watch, s.pool);
   const SolveInput input{problem, enabled, s.settings};
-  const bool analyzed = s.analyze(problem, enabled);
-  const double after_analysis = watch.seconds();
-
   Counts counts;
-  s.indefinite = -1;
   report.fallbacks = 0;
   report.method = -1;
-  s.result.v.assign(problem.n(), 0.0);
-  s.result.redundant.assign(problem.m(), 0);
-  s.result.trace.clear();
-  s.result.certificates.clear();
-  s.result.certificate_row.clear();
-  s.result.certificate_y.clear();
-  s.result.island_outcome.assign(s.main.analysis.symbolic.islands.size(), MLCP_SOLVED);
-  s.result.row_island.assign(problem.m(), -1);
-  const auto& islands = s.main.analysis.symbolic.islands;
-  for (std::size_t i = 0; i < islands.size(); ++i)
-    for (std::int32_t o = islands[i].first_row; o < islands[i].last_row; ++o) {
-      const std::int32_t row = s.main.analysis.pattern.node[s.main.analysis.pattern.row_position[o]] - problem.n();
-      if (!enabled || enabled->state[row] != MLCP_ROW_DISABLED) s.result.row_island[row] = static_cast<std::int32_t>(i);
-    }
-
-  s.main.load(input, start);
-  s.main.solve(input, watch, crew, start != nullptr, s.result);
-  s.read_ends(s.main, problem, false, report, counts);
-  s.solve_free_velocities(problem);
-  s.collect(problem);
-  s.rescue(input, watch, crew, report, counts);
+  const bool small = s.solve_small(input, start, watch, crew, report, counts);
+  if (!small) s.solve_large(input, start, watch, crew, report, counts);
   const double after_solve = watch.seconds();
-  s.judge(problem, enabled);
   if (s.settings.canonical) {
-    s.make_canonical(input);
-    s.judge(problem, enabled);
+    s.make_canonical(input, watch);
+    small ? s.look_at_result(input) : s.judge(input);
   }
+  s.result.mask.key.assign(problem.key.span());
   s.result.mask.impulse.assign(s.result.gamma.span());
   s.fill(problem, report, counts);
+  if (report.outcome == MLCP_ITERATION_LIMIT && s.result.island_outcome.empty()) report.outcome = watch.stopped();
   report.warm = start != nullptr;
-  report.analyzed = analyzed;
-  report.seconds_analyze = analyzed ? after_analysis : 0;
-  report.seconds_solve = after_solve - after_analysis - counts.seconds_factorize;
+  report.seconds_solve = after_solve - report.seconds_analyze - counts.seconds_factorize;
   report.seconds = watch.seconds();
   report.seconds_report = report.seconds - after_solve;
   s.result.valid = true;
@@ -289,12 +355,9 @@ void Solver::solve(const Problem& problem, const Mask* enabled, const Mask* star
 void Solver::trim() {
   State& s = *state_;
   s.imposed.assign(ordering());
-  for (Stage* stage : {&s.main, &s.exact}) {
-    std::destroy_at(stage);
-    std::construct_at(stage, s.memory);
-  }
-  std::destroy_at(&s.measure);
-  std::construct_at(&s.measure, s.memory);
+  s.dense = DenseStage(s.memory);
+  for (Stage* stage : {&s.main, &s.exact}) stage->renew(s.memory);
+  s.measure = Measure(s.memory);
 }
 
 }  // namespace mlcp

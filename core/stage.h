@@ -1,23 +1,10 @@
 #pragma once
 #include "analyze/analysis.h"
+#include "crew.h"
 #include "report/result.h"
 #include "solve/island_solver.h"
-#include "threads/pool.h"
 
 namespace mlcp {
-
-/// Who works on the islands: the caller's parallel_for, our pool, or this thread.
-class Crew {
- public:
-  Crew(const Settings& settings, Pool& pool) : settings_(settings), pool_(pool) {}
-  /// task(index) for index 0 .. count − 1. One task may throw bad_alloc or Error, which is thrown again when all have ended.
-  template <class Task>
-  void run(std::int32_t count, Task task);
-
- private:
-  const Settings& settings_;
-  Pool& pool_;
-};
 
 /// Analysis, factor and active set of a problem, from the pattern to the point of every island.
 class Stage {
@@ -28,19 +15,22 @@ class Stage {
   Basis basis;
   Array<IslandEnd> ends;  ///< by island
 
+  /// Gives all memory back. What is new is there before the old goes, so that nothing is half gone when there is no memory for it.
+  void renew(const Memory& memory);
+
   /// Loads the problem's numbers and a start (NULL: rows that may push both ways are active). before: analysis covers the problem.
   void load(const SolveInput& input, const Mask* start);
   /// Every island by its method, crew permitting at the same time.
   void solve(const SolveInput& input, Watch& watch, Crew& crew, bool warm, Result& result);
-  /// The point of the loaded active set, nothing else: factored afresh and refined.  false: some island has none.
-  bool settle(const SolveInput& input);
+  /// The point of the loaded active set, nothing else: factored afresh and refined.  false: some island has none.  throws: Stopped.
+  bool settle(Watch& watch);
 
   /// Velocities, impulses and states, from elimination order to the caller's. only_rows: of islands with rows.
   void collect(const Problem& problem, bool only_rows, Result& result) const;
 
  private:
   CertificateCheck check_;
-  Array<std::int32_t> tasks_;  // first island of each task, and the end
+  Array<std::int32_t> tasks_;  // of the crew
 };
 
 }  // namespace mlcp

@@ -114,7 +114,7 @@ bool Dissection::split(const QuotientGraph& g, Piece piece) {
   return true;
 }
 
-void Dissection::cut(const QuotientGraph& g) {
+void Dissection::cut(const QuotientGraph& g, Poll poll) {
   home.assign(g.variables, -1);
   parent.clear();
   piece_.assign(g.variables, 0);
@@ -128,6 +128,7 @@ void Dissection::cut(const QuotientGraph& g) {
   while (!stack_.empty()) {
     const Piece piece = stack_.back();
     stack_.pop_back();
+    poll.spend(16 * (piece.last - piece.first));
     if (piece.last - piece.first <= leaf_size || !split(g, piece)) leaf(piece);
   }
   below.assign(parent.size(), 0);

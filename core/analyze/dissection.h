@@ -1,5 +1,6 @@
 #pragma once
 #include "analyze/quotient_graph.h"
+#include "threads/poll.h"
 
 namespace mlcp {
 
@@ -14,7 +15,8 @@ struct Dissection {
 
   explicit Dissection(const Memory& m)
       : home(m), parent(m), below(m), piece_(m), sequence_(m), front_(m), level_(m), visited_(m), stack_(m), level_start_(m) {}
-  void cut(const QuotientGraph& graph);
+  /// throws: Stopped
+  void cut(const QuotientGraph& graph, Poll poll = {});
 
  private:
   struct Piece {

@@ -278,12 +278,13 @@ void MinimumDegree::eliminate(std::int32_t i, const QuotientGraph& g, const Diss
   }
 }
 
-void MinimumDegree::run(const QuotientGraph& g, const Dissection& d) {
+void MinimumDegree::run(const QuotientGraph& g, const Dissection& d, Poll poll) {
   load(g, d);
   while (left_ > 0) {
     const std::int32_t p = smallest();
     delist(p);
     make_element(p);
+    poll.spend(16 * length_[p]);
     eliminate(p, g, d);
     measure_overlaps(p);
     update_degrees(p);

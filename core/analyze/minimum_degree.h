@@ -1,6 +1,7 @@
 #pragma once
 #include "analyze/dissection.h"
 #include "analyze/quotient_graph.h"
+#include "threads/poll.h"
 
 namespace mlcp {
 
@@ -12,8 +13,8 @@ class MinimumDegree {
       : order(m), kind_(m), start_(m), length_(m), element_count_(m), weight_(m), degree_(m), stamp_(m), pending_(m), head_(m),
         next_(m), previous_(m), member_(m), tail_(m), bucket_(m), hash_(m), gone_(m), iw_(m), tree_(m), tree_pointers_(m), tree_variables_(m) {}
 
-  /// after: order holds the variables in elimination order.
-  void run(const QuotientGraph& graph, const Dissection& dissection);
+  /// after: order holds the variables in elimination order.  throws: Stopped.
+  void run(const QuotientGraph& graph, const Dissection& dissection, Poll poll = {});
 
   Array<std::int32_t> order;
 

@@ -17,13 +17,13 @@ void Ordering::collect_free(const Problem& problem, const Selection& selection) 
   }
 }
 
-void Ordering::compute(const Problem& problem, const Selection& selection, const Crowding& crowding) {
+void Ordering::compute(const Problem& problem, const Selection& selection, const Crowding& crowding, const Poll& poll) {
   const std::int32_t n = problem.n();
   const SparseView jacobian = problem.jacobian_view();
   collect_free(problem, selection);
   graph_.build(problem, selection, crowding);
-  dissection_.cut(graph_);
-  degree_.run(graph_, dissection_);
+  dissection_.cut(graph_, poll);
+  degree_.run(graph_, dissection_, poll);
 
   // velocities of each element
   member_pointers_.assign(graph_.elements + 1, 0);
@@ -52,6 +52,11 @@ void Ordering::compute(const Problem& problem, const Selection& selection, const
     order.push_back(node);
   }
   for (std::int32_t e = 0; e < graph_.elements; ++e) place_element(e);
+}
+
+void Ordering::clear() {
+  order.clear();
+  free_velocity.clear();
 }
 
 bool Ordering::accept(const Problem& problem, const Selection& selection, const Crowding& crowding, std::span<const std::int32_t> imposed) {

@@ -12,9 +12,13 @@ class Ordering {
  public:
   explicit Ordering(const Memory& m) : order(m), free_velocity(m), graph_(m), dissection_(m), degree_(m), placed_(m), members_(m), member_pointers_(m) {}
 
-  void compute(const Problem& problem, const Selection& selection, const Crowding& crowding);
+  /// throws: Stopped
+  void compute(const Problem& problem, const Selection& selection, const Crowding& crowding, const Poll& poll = {});
   /// Takes the caller's order if it holds exactly the nodes that compute would order, rows after their velocities where these are not crowded.
   bool accept(const Problem& problem, const Selection& selection, const Crowding& crowding, std::span<const std::int32_t> imposed);
+
+  /// Nothing to eliminate, nothing free.
+  void clear();
 
   Array<std::int32_t> order;          ///< nodes
   Array<std::int32_t> free_velocity;  ///< velocities with a diagonal mass that no row touches: v = k / M, not in the order

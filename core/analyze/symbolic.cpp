@@ -2,7 +2,7 @@
 
 namespace mlcp {
 
-void Symbolic::build(const KktPattern& pattern, const EliminationTree& tree, const Crowding& crowding) {
+void Symbolic::build(const KktPattern& pattern, const EliminationTree& tree, const Crowding& crowding, Poll poll) {
   const std::int32_t size = pattern.size();
   parent.assign(tree.parent.span());
   const auto for_each_entry = [&](auto visit) {
@@ -13,6 +13,7 @@ void Symbolic::build(const KktPattern& pattern, const EliminationTree& tree, con
         for (std::int32_t q = pattern.upper_rows[t]; mark_[q] != p; q = parent[q]) {
           mark_[q] = p;
           visit(q, p);
+          poll.spend(1);
         }
     }
   };

@@ -2,6 +2,7 @@
 #include "analyze/crowding.h"
 #include "analyze/elimination_tree.h"
 #include "analyze/kkt_pattern.h"
+#include "threads/poll.h"
 
 namespace mlcp {
 
@@ -27,8 +28,8 @@ struct Symbolic {
   std::int32_t size() const { return static_cast<std::int32_t>(parent.size()); }
   std::int64_t entries() const { return pointers.empty() ? 0 : pointers.back(); }
 
-  /// cost: O(entries of L), by walking each row's subtree twice (Davis 2006, ch. 4).
-  void build(const KktPattern& pattern, const EliminationTree& tree, const Crowding& crowding);
+  /// cost: O(entries of L), by walking each row's subtree twice (Davis 2006, ch. 4).  throws: Stopped.
+  void build(const KktPattern& pattern, const EliminationTree& tree, const Crowding& crowding, Poll poll = {});
 
  private:
   Array<std::int32_t> mark_;

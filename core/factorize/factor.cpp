@@ -9,6 +9,7 @@ void Factor::prepare(const KktPattern& pattern, const Symbolic& symbolic, const 
   pattern_ = &pattern;
   symbolic_ = &symbolic;
   kkt_ = &values;
+  poll_ = {};
   const std::int32_t size = symbolic.size();
   values_.resize(symbolic.entries());
   pivot_.assign(size, 0.0);
@@ -29,7 +30,11 @@ void Factor::prepare(const KktPattern& pattern, const Symbolic& symbolic, const 
 FactorStatus Factor::factorize(const Island& island, const std::uint8_t* wanted, double drop, std::int64_t& work) {
   std::fill(head_.begin() + island.first, head_.begin() + island.last, -1);
   for (std::int32_t p = island.first; p < island.last; ++p) in_[p] = !pattern_->is_row(p) || wanted[p];
+  Poll poll = poll_;
+  std::int64_t asked = work;
   for (std::int32_t p = island.first; p < island.last; ++p) {
+    poll.spend(work - asked);
+    asked = work;
     const bool row = pattern_->is_row(p);
     const std::int64_t begin = symbolic_->pointers[p], end = symbolic_->pointers[p + 1];
     double d = kkt_->factored[p];

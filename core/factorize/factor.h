@@ -2,6 +2,7 @@
 #include "analyze/symbolic.h"
 #include "factorize/kernels.h"
 #include "factorize/kkt_values.h"
+#include "threads/poll.h"
 
 namespace mlcp {
 
@@ -29,9 +30,12 @@ class Factor {
   bool in(std::int32_t p) const { return in_[p] != 0; }
   double pivot(std::int32_t p) const { return pivot_[p]; }
 
+  /// What factorizations ask until the next prepare(); the island that one stops on is stale.
+  void ask(const Poll& poll) { poll_ = poll; }
+
   /// Factors an island afresh with the rows that wanted[p] names. A row whose pivot is at most drop · a in size depends on the
   /// rows before it and is left out: in(p) is false afterwards.
-  /// cost: Σ over columns of (entries)², left-looking by runs.
+  /// cost: Σ over columns of (entries)², left-looking by runs.  throws: Stopped.
   FactorStatus factorize(const Island& island, const std::uint8_t* wanted, double drop, std::int64_t& work);
 
   /// Takes row p out.  before: in.  after: as if row and column p were not there.  allocates nothing.
@@ -73,6 +77,7 @@ class Factor {
   const KktPattern* pattern_ = nullptr;
   const Symbolic* symbolic_ = nullptr;
   const KktValues* kkt_ = nullptr;
+  Poll poll_;
   Array<double> values_;             // C, as Symbolic::rows
   Array<double> pivot_, inverse_;    // d and 1/d; 1/d = 0 for what is out
   Array<std::uint8_t> in_;

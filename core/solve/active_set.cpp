@@ -21,22 +21,31 @@ double ActiveSet::resting_x(State state, double lo, double hi) {
   return state == at_lower ? -lo : state == at_upper ? -hi : 0.0;
 }
 
+ActiveSet::State ActiveSet::starting(const Problem& problem, std::int32_t row, const Mask* mask) {
+  const double lo = problem.lo[row], hi = problem.hi[row];
+  const State rests = resting(lo, hi);
+  if (rests == out || (mask ? mask->state[row] == MLCP_ROW_ACTIVE && lo < hi : lo < 0 && hi > 0)) return active;
+  return mask && mask->state[row] == MLCP_ROW_AT_UPPER && hi < infinity ? at_upper : rests;
+}
+
 void ActiveSet::start(const Problem& problem, const KktPattern& pattern, const KktValues& values, const Mask* enabled,
                       const Mask* mask) {
   for (std::int32_t o = 0; o < pattern.rows(); ++o) {
     const std::int32_t p = pattern.row_position[o], i = pattern.node[p] - problem.n();
     const double lo = values.lo[o], hi = values.hi[o];
-    const mlcp_row_state asked = mask ? mask->state[i] : static_cast<mlcp_row_state>(MLCP_ROW_DISABLED);
-    State s = resting(lo, hi);
-    if (enabled && enabled->state[i] == MLCP_ROW_DISABLED)
-      s = disabled;
-    else if (s == out || (asked == MLCP_ROW_ACTIVE && lo < hi) || (!mask && lo < 0 && hi > 0))
-      s = active;
-    else if (asked == MLCP_ROW_AT_UPPER && hi < infinity)
-      s = at_upper;
+    const State s = enabled && enabled->state[i] == MLCP_ROW_DISABLED ? disabled : starting(problem, i, mask);
     state[o] = s;
     deferred[o] = 0;
     x[p] = s == active && mask && !mask->impulse.empty() ? -mask->impulse[i] : resting_x(s, lo, hi);
+  }
+}
+
+mlcp_row_state row_state(std::uint8_t state) {
+  switch (state) {
+    case ActiveSet::at_lower: return MLCP_ROW_AT_LOWER;
+    case ActiveSet::at_upper: return MLCP_ROW_AT_UPPER;
+    case ActiveSet::disabled: return MLCP_ROW_DISABLED;
+    default: return MLCP_ROW_ACTIVE;
   }
 }
 

@@ -111,7 +111,13 @@ class Run {
 IslandEnd solve_island(const SolveInput& input, Basis& basis, CertificateCheck& check, Watch& watch, std::int32_t index, bool warm,
                        Array<mlcp_pivot>* trace) {
   IslandEnd end;
-  Run(input, basis, check, watch, index, end).solve(warm, trace);
+  end.outcome = watch.stopped();
+  if (end.outcome != MLCP_SOLVED) return end;
+  try {
+    Run(input, basis, check, watch, index, end).solve(warm, trace);
+  } catch (const Stopped&) {
+    end.outcome = watch.stopped();
+  }
   return end;
 }
 

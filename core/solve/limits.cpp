@@ -13,17 +13,28 @@ Counts& Counts::operator+=(const Counts& other) {
   return *this;
 }
 
+mlcp_outcome Watch::look() {
+  const bool reports = settings_.progress && std::this_thread::get_id() == caller_;
+  if (stopped_ != MLCP_SOLVED || !(reports || settings_.max_seconds > 0)) return stopped_;
+  const double now = seconds();
+  if (settings_.max_seconds > 0 && now >= settings_.max_seconds) return stopped_ = MLCP_TIME_LIMIT;
+  if (!reports) return stopped_;
+  now_.seconds = now;
+  if (settings_.progress(settings_.progress_context, &now_)) stopped_ = MLCP_INTERRUPTED;
+  return stopped_;
+}
+
+mlcp_outcome Watch::check(const mlcp_progress& now) {
+  if (!settings_.progress || std::this_thread::get_id() != caller_) return settings_.max_seconds > 0 ? look() : stopped_.load();
+  now_ = now;
+  return checks_++ % 16 == 0 || settings_.max_seconds > 0 ? look() : stopped_.load();
+}
+
 mlcp_outcome Limits::check(const Counts& counts, double violation) {
-  if (const mlcp_outcome stopped = watch_.stopped_; stopped != MLCP_SOLVED) return stopped;
-  const Settings& s = watch_.settings_;
+  const Settings& s = watch_.settings();
   if (counts.pivots - first_pivot_ >= most_iterations_) return MLCP_ITERATION_LIMIT;
   if (s.max_work > 0 && counts.work - first_work_ >= s.max_work) return MLCP_WORK_LIMIT;
-  if (s.max_seconds > 0 && watch_.seconds() >= s.max_seconds) return watch_.stopped_ = MLCP_TIME_LIMIT;
-  if (s.progress && calls_++ % 16 == 0 && std::this_thread::get_id() == watch_.caller_) {
-    const mlcp_progress now{sizeof(mlcp_progress), watch_.seconds(), counts.pivots, counts.work, island_, islands_, violation};
-    if (s.progress(s.progress_context, &now)) return watch_.stopped_ = MLCP_INTERRUPTED;
-  }
-  return MLCP_SOLVED;
+  return watch_.check({sizeof(mlcp_progress), 0, counts.pivots, counts.work, island_, islands_, violation});
 }
 
 }  // namespace mlcp

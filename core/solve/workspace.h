@@ -27,7 +27,7 @@ struct Workspace {
   Array<Flip> flips;
 
   explicit Workspace(const Memory& m)
-      : step(m), rhs(m), rhs_size(m), point(m), residual(m), slack(m), slope(m), center(m), certificate_row(m), certificate_y(m), entered(m), state(m), flips(m) {}
+      : step(m), rhs(m), rhs_size(m), point(m), center(m), residual(m), slack(m), slope(m), certificate_row(m), certificate_y(m), entered(m), state(m), flips(m) {}
 
   void prepare(const KktPattern& pattern) {
     for (auto* a : {&step, &rhs, &rhs_size, &point, &center}) a->resize(pattern.size());

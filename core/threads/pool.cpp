@@ -1,5 +1,6 @@
 #include "threads/pool.h"
 
+#include <chrono>
 #include <new>
 #include <system_error>
 
@@ -8,6 +9,7 @@ namespace {
 
 /// Looks before a thread goes to sleep: a solve of many small islands lasts no longer than waking a thread.
 constexpr int patience = 4000;
+constexpr std::chrono::milliseconds nap(10);
 
 inline void pause() {
 #if defined(__x86_64__)
@@ -66,7 +68,7 @@ void Pool::work(std::int32_t worker) {
   }
 }
 
-void Pool::run(std::int32_t count, mlcp_task task, void* data) {
+void Pool::run(std::int32_t count, mlcp_task task, void* data, Poll::Ask waiting, void* context) {
   {
     const std::lock_guard lock(mutex_);
     task_ = task;
@@ -80,7 +82,12 @@ void Pool::run(std::int32_t count, mlcp_task task, void* data) {
   take(0);
   for (int look = 0; look < patience && busy_ > 0; ++look) pause();
   std::unique_lock lock(mutex_);
-  done_.wait(lock, [&] { return busy_ == 0; });
+  while (!done_.wait_for(lock, nap, [&] { return busy_ == 0; })) {
+    if (!waiting) continue;
+    lock.unlock();
+    waiting(context);
+    lock.lock();
+  }
 }
 
 }  // namespace mlcp

@@ -7,6 +7,7 @@
 
 #include "memory/array.h"
 #include "mlcp.h"
+#include "threads/poll.h"
 
 namespace mlcp {
 
@@ -24,7 +25,8 @@ class Pool {
   std::int32_t threads() const { return helpers_ + 1; }
 
   /// task(data, index, worker) for index 0 .. count − 1, in any order on any thread. before: task does not throw.
-  void run(std::int32_t count, mlcp_task task, void* data);
+  /// waiting(context): called by the caller every so often while others still work; what it returns is for them to see.
+  void run(std::int32_t count, mlcp_task task, void* data, Poll::Ask waiting = nullptr, void* context = nullptr);
 
  private:
   void stop();

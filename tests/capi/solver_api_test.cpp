@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cstddef>
 
+#include "../support/random.h"
 #include "support.h"
 
 using namespace capi;
@@ -362,6 +364,62 @@ TEST_F(SolverApi, ProgressStops) {
   EXPECT_EQ(report.outcome, MLCP_INTERRUPTED);
 }
 
+/// Bodies and rods between them at random: the factor fills up, so that analysis and factorization take long.
+void fill_tangle(mlcp_problem* p, int32_t count) {
+  ASSERT_EQ(mlcp_problem_clear(p), MLCP_OK);
+  for (int32_t i = 0; i < count; ++i) add_body(p, 1, 1 + i % 3);
+  std::vector<double> k(count, -1.0);
+  ASSERT_EQ(mlcp_problem_set_momentum(p, 0, count, k.data()), MLCP_OK);
+  support::Random random(1);
+  for (int32_t i = 0; i < count; ++i) {
+    const int32_t a = random.integer(0, count - 1), b = (a + random.integer(1, count - 1)) % count;
+    add_row(p, {std::min(a, b), std::max(a, b)}, {1, -1}, 0);
+  }
+}
+
+/// Stops a solve when its progress is told for the `left`-th time.
+struct Patience {
+  int left;
+  bool inside = false;  ///< some report came before the first step had ended, from inside analysis or factorization
+
+  void give(mlcp_solver* solver, int calls) {
+    left = calls;
+    mlcp_settings settings;
+    mlcp_settings_init(&settings, sizeof settings);
+    settings.method = MLCP_METHOD_NEWTON;
+    settings.progress_context = this;
+    settings.progress = [](void* context, const mlcp_progress* now) -> int32_t {
+      Patience& patience = *static_cast<Patience*>(context);
+      patience.inside |= now->work == 0;
+      return --patience.left <= 0;
+    };
+    ASSERT_EQ(mlcp_solver_set_settings(solver, &settings), MLCP_OK);
+  }
+};
+
+TEST_F(SolverApi, ASolveStopsInsideAnalysisAndFactorizationToo) {
+  fill_tangle(p, 2500);
+  Patience patience;
+  patience.give(s, 1 << 30);
+  ASSERT_EQ(mlcp_solve(s, p, nullptr, nullptr, &report), MLCP_OK);
+  ASSERT_EQ(report.outcome, MLCP_SOLVED);
+  const int most = (1 << 30) - patience.left;
+  EXPECT_GT(most, 8) << "factorizations were to be long enough to be stopped in";
+  EXPECT_TRUE(patience.inside);
+  const std::vector<double> undisturbed = impulses(s);
+  for (int calls = 1; calls <= most / 2; calls += calls < 8 ? 1 : most / 8) {
+    SolverHandle stopped = make_solver();
+    patience.give(stopped.get(), calls);
+    ASSERT_EQ(mlcp_solve(stopped.get(), p, nullptr, nullptr, &report), MLCP_OK);
+    ASSERT_EQ(report.outcome, MLCP_INTERRUPTED) << calls;
+    for (const double v : velocities(stopped.get())) ASSERT_TRUE(std::isfinite(v));
+    patience.give(stopped.get(), 1 << 30);
+    ASSERT_EQ(mlcp_solve(stopped.get(), p, nullptr, nullptr, &report), MLCP_OK);
+    ASSERT_EQ(report.outcome, MLCP_SOLVED) << calls;
+    EXPECT_EQ(impulses(stopped.get()), undisturbed) << calls;
+  }
+}
+
 TEST(SolverMemory, EveryAllocationOfASolveMayFail) {
   ProblemHandle problem = make_problem();
   fill_pile(problem.get(), 12);
@@ -426,6 +484,12 @@ TEST_F(SolverApi, FactorHasThePatternOfEveryEnabledRow) {
   mlcp_factor_view_init(&factor, sizeof factor);
   EXPECT_EQ(mlcp_solver_factor(s, &factor), MLCP_ERROR_STATE);
   EXPECT_EQ(mlcp_solver_factor(s, nullptr), MLCP_ERROR_NULL);
+  ASSERT_EQ(mlcp_solve(s, p, nullptr, nullptr, &report), MLCP_OK);
+  EXPECT_EQ(mlcp_solver_factor(s, &factor), MLCP_ERROR_STATE) << "small islands need none";
+  mlcp_settings settings;
+  mlcp_settings_init(&settings, sizeof settings);
+  settings.method = MLCP_METHOD_SIMPLEX;
+  ASSERT_EQ(mlcp_solver_set_settings(s, &settings), MLCP_OK);
   ASSERT_EQ(mlcp_solve(s, p, nullptr, nullptr, &report), MLCP_OK);
   ASSERT_EQ(mlcp_solver_factor(s, &factor), MLCP_OK);
   // two islands, a velocity and its row each: one entry below the diagonal, then a root

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <thread>
 #include <vector>
 
 #include "support/random_problem.h"
@@ -35,6 +36,23 @@ TEST(Pool, EveryTaskOnce) {
       ASSERT_LT(calls.workers, 1 << threads);
     }
   }
+}
+
+TEST(Pool, TheCallerIsAskedWhileItWaitsForOthers) {
+  mlcp::Pool pool{mlcp::Memory()};
+  pool.resize(2);
+  ASSERT_EQ(pool.threads(), 2);
+  struct Two {
+    std::atomic<bool> helping = false, asked = false;
+  } two;
+  const auto task = [](void* data, std::int32_t, std::int32_t worker) {
+    Two& t = *static_cast<Two*>(data);
+    if (worker > 0) t.helping = true;
+    while (!(worker > 0 ? t.asked : t.helping)) std::this_thread::yield();
+  };
+  const auto ask = [](void* context) { return static_cast<Two*>(context)->asked = true; };
+  pool.run(2, task, &two, ask, &two);
+  EXPECT_TRUE(two.asked);
 }
 
 /// Chains that nothing couples.

@@ -26,7 +26,7 @@ cdef class Scene:
         Number of spheres, links, boxes or bricks.
     seed : int
         For scenes that begin at random.
-    settings : keywords of `Solver` but `progress`
+    settings : keywords of `Solver` but `progress` and `parallel_for`
     """
     cdef unique_ptr[_scenes.CppScene] scene
     cdef readonly str name
