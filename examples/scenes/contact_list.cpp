@@ -14,10 +14,7 @@ void ContactList::add(std::int32_t body_a, std::int32_t body_b, std::span<const 
   friction_.push_back(material.friction);
   restitution_.push_back(material.restitution);
   stiffness_.push_back(material.stiffness);
-  for (const Point& direction : directions) {
-    drive_.push_back(dot(direction, material.velocity));
-    actions_.push_back({at.point, direction});
-  }
+  for (const Point& direction : directions) actions_.push_back({at.point, direction});
   key_.push_back(row_key(body_a, body_b, at.feature));
 }
 
@@ -36,16 +33,18 @@ double ContactList::approach(std::size_t contact, std::span<const double> v) con
 
 void ContactList::add_to(const Problem& problem, double h, double stabilisation, const FrictionLaw& law, std::span<const double> v) const {
   if (gap_.empty()) return;
-  std::vector<double> r = drive_, compliance(drive_.size());
+  std::vector<double> r(gap_.size() * static_cast<std::size_t>(rows_)), compliance(r.size());
   std::vector<mlcp_friction> models(gap_.size(), law.model);
   const std::vector<std::int32_t> facets(gap_.size(), law.facets);
   for (std::size_t i = 0; i < gap_.size(); ++i) {
     const std::size_t row = i * static_cast<std::size_t>(rows_);
     double& normal = r[row];
-    if (std::isfinite(stiffness_[i]))
+    if (std::isfinite(stiffness_[i])) {
       check(mlcp_timestep_spring(h, stiffness_[i], 0, gap_[i], &compliance[row], &normal));
-    else
+      std::fill_n(&compliance[row + 1], rows_ - 1, compliance[row]);
+    } else {
       check(mlcp_timestep_rows(h, stabilisation, true, 1, &gap_[i], nullptr, &normal));
+    }
     if (friction_[i] == 0) models[i] = MLCP_FRICTION_NONE;
     if (restitution_[i] == 0) continue;
     const double before = approach(i, v);

@@ -298,7 +298,7 @@ def _faces(drawing: Drawing, view: _View) -> Iterable[_Shape]:
         size = np.linalg.norm(normal)
         if not normal @ view.eye > 1e-9 * size:
             continue
-        brightness = 0.72 + 0.28 * max(0.0, float(normal @ _LIGHT) / size)
+        brightness = 0.72 + 0.28 * max(0.0, float(normal @ _LIGHT / size))
         depth = -math.inf if role == Role.GROUND else float(corners.mean(axis=0) @ view.eye)
         yield depth, Polygon(view.flat(corners)), brightness * _ROLE_COLORS[role]
 
