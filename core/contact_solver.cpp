@@ -188,7 +188,10 @@ void ContactSolver::State::solve_with(const Problem& problem, const Mask* mask, 
   const std::int32_t most = settings.max_shifts > 0 ? settings.max_shifts : default_shifts;
   while (true) {
     if ((stopped = spend(total, since(begin))) != MLCP_SOLVED) break;
-    solver.solve(rows.inner, &rows.enabled, &rows.start, one);
+    if (shifts == 0)
+      solver.solve(rows.inner, &rows.enabled, &rows.start, one);
+    else
+      solver.solve_again(rows.inner, &rows.enabled, rows.start, one);
     accumulate(one, total);
     const Result& inner = solver.result();
     if (shifts++ == 0) slip.group(problem, generators, rows, inner.row_island.span());

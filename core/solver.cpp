@@ -55,6 +55,8 @@ struct Solver::State {
   void collect(const SolveInput& input);
   void rescue(const SolveInput& input, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts);
   void make_canonical(const SolveInput& input, Watch& watch);
+  void clear_result(const SolveInput& input);
+  void solve(const SolveInput& input, const Mask* start, bool again, Watch& watch, Crew& crew, mlcp_report& report);
   void judge(const Problem& problem, const Mask* enabled);
   void fill(const Problem& problem, mlcp_report& report, const Counts& counts) const;
 };
@@ -244,63 +246,84 @@ void Solver::State::fill(const Problem& problem, mlcp_report& report, const Coun
   report.refactorized_for_drift = counts.drifts;
 }
 
-void Solver::solve(const Problem& problem, const Mask* enabled, const Mask* start, mlcp_report& report) {
-  State& s = *state_;
-  check_mask(enabled, problem, "enabled");
-  check_mask(start, problem, "start");
-  s.result.valid = false;
-  s.pool.resize(s.settings.parallel_for ? 1 : s.settings.num_threads > 0 ? s.settings.num_threads : static_cast<std::int32_t>(std::max(1u, std::thread::hardware_concurrency())));
-  Watch watch(s.settings);
-  Crew crew(watch, s.pool);
-  const SolveInput input{problem, enabled, s.settings};
-  bool analyzed = true;
+void Solver::State::clear_result(const SolveInput& input) {
+  const Problem& problem = input.problem;
+  result.v.assign(problem.n(), 0.0);
+  result.redundant.assign(problem.m(), 0);
+  const auto& islands = main.analysis.symbolic.islands;
+  result.row_island.assign(problem.m(), -1);
+  for (std::size_t i = 0; i < islands.size(); ++i)
+    for (std::int32_t o = islands[i].first_row; o < islands[i].last_row; ++o) {
+      const std::int32_t row = main.analysis.pattern.node[main.analysis.pattern.row_position[o]] - problem.n();
+      if (!input.enabled || input.enabled->state[row] != MLCP_ROW_DISABLED) result.row_island[row] = static_cast<std::int32_t>(i);
+    }
+}
+
+/// again: the numbers of rows alone have changed since the last call.
+void Solver::State::solve(const SolveInput& input, const Mask* start, bool again, Watch& watch, Crew& crew, mlcp_report& report) {
+  const Problem& problem = input.problem;
+  const Mask* enabled = input.enabled;
+  result.valid = false;
+  bool analyzed = !again;
   try {
-    analyzed = s.analyze(problem, enabled, watch.poll());
+    if (!again) analyzed = analyze(problem, enabled, watch.poll());
   } catch (const Stopped&) {  // the analysis of nothing leads to the answer 0, which is judged like any other
   }
   const double after_analysis = watch.seconds();
 
   Counts counts;
-  s.indefinite = -1;
+  indefinite = -1;
   report.fallbacks = 0;
   report.method = -1;
-  s.result.v.assign(problem.n(), 0.0);
-  s.result.redundant.assign(problem.m(), 0);
-  s.result.trace.clear();
-  s.result.certificates.clear();
-  s.result.certificate_row.clear();
-  s.result.certificate_y.clear();
-  s.result.island_outcome.assign(s.main.analysis.symbolic.islands.size(), MLCP_SOLVED);
-  s.result.row_island.assign(problem.m(), -1);
-  const auto& islands = s.main.analysis.symbolic.islands;
-  for (std::size_t i = 0; i < islands.size(); ++i)
-    for (std::int32_t o = islands[i].first_row; o < islands[i].last_row; ++o) {
-      const std::int32_t row = s.main.analysis.pattern.node[s.main.analysis.pattern.row_position[o]] - problem.n();
-      if (!enabled || enabled->state[row] != MLCP_ROW_DISABLED) s.result.row_island[row] = static_cast<std::int32_t>(i);
-    }
-
-  s.main.load(input, start);
-  s.main.solve(input, watch, crew, start != nullptr, s.result);
-  s.read_ends(s.main, problem, false, report, counts);
-  s.solve_free_velocities(problem);
-  s.collect(input);
-  s.rescue(input, watch, crew, report, counts);
-  const double after_solve = watch.seconds();
-  s.judge(problem, enabled);
-  if (s.settings.canonical) {
-    s.make_canonical(input, watch);
-    s.judge(problem, enabled);
+  result.trace.clear();
+  result.certificates.clear();
+  result.certificate_row.clear();
+  result.certificate_y.clear();
+  result.island_outcome.assign(main.analysis.symbolic.islands.size(), MLCP_SOLVED);
+  if (again) {
+    main.solve_again(input, watch, crew, *start, result);
+  } else {
+    clear_result(input);
+    main.load(input, start);
+    main.solve(input, watch, crew, start != nullptr, result);
   }
-  s.result.mask.impulse.assign(s.result.gamma.span());
-  s.fill(problem, report, counts);
-  if (report.outcome == MLCP_ITERATION_LIMIT && s.result.island_outcome.empty()) report.outcome = watch.stopped();
+  read_ends(main, problem, false, report, counts);
+  solve_free_velocities(problem);
+  collect(input);
+  rescue(input, watch, crew, report, counts);
+  const double after_solve = watch.seconds();
+  judge(problem, enabled);
+  if (settings.canonical) {
+    make_canonical(input, watch);
+    judge(problem, enabled);
+  }
+  result.mask.impulse.assign(result.gamma.span());
+  fill(problem, report, counts);
+  if (report.outcome == MLCP_ITERATION_LIMIT && result.island_outcome.empty()) report.outcome = watch.stopped();
   report.warm = start != nullptr;
   report.analyzed = analyzed;
   report.seconds_analyze = analyzed ? after_analysis : 0;
   report.seconds_solve = after_solve - after_analysis - counts.seconds_factorize;
   report.seconds = watch.seconds();
   report.seconds_report = report.seconds - after_solve;
-  s.result.valid = true;
+  result.valid = true;
+}
+
+void Solver::solve(const Problem& problem, const Mask* enabled, const Mask* start, mlcp_report& report) {
+  State& s = *state_;
+  check_mask(enabled, problem, "enabled");
+  check_mask(start, problem, "start");
+  s.pool.resize(s.settings.parallel_for ? 1 : s.settings.num_threads > 0 ? s.settings.num_threads : static_cast<std::int32_t>(std::max(1u, std::thread::hardware_concurrency())));
+  Watch watch(s.settings);
+  Crew crew(watch, s.pool);
+  s.solve({problem, enabled, s.settings}, start, false, watch, crew, report);
+}
+
+void Solver::solve_again(const Problem& problem, const Mask* enabled, const Mask& start, mlcp_report& report) {
+  State& s = *state_;
+  Watch watch(s.settings);
+  Crew crew(watch, s.pool);
+  s.solve({problem, enabled, s.settings}, &start, true, watch, crew, report);
 }
 
 /// The order is kept, so that the next solve gives the same bits as without.

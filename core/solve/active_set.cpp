@@ -21,22 +21,23 @@ double ActiveSet::resting_x(State state, double lo, double hi) {
   return state == at_lower ? -lo : state == at_upper ? -hi : 0.0;
 }
 
+ActiveSet::State ActiveSet::asked(const KktValues& values, const Mask* enabled, const Mask* mask, std::int32_t o, std::int32_t i) const {
+  const double lo = values.lo[o], hi = values.hi[o];
+  const mlcp_row_state in_mask = mask ? mask->state[i] : static_cast<mlcp_row_state>(MLCP_ROW_DISABLED);
+  const State s = resting(lo, hi);
+  if (enabled && enabled->state[i] == MLCP_ROW_DISABLED) return disabled;
+  if (s == out || (in_mask == MLCP_ROW_ACTIVE && lo < hi) || (!mask && lo < 0 && hi > 0)) return active;
+  return in_mask == MLCP_ROW_AT_UPPER && hi < infinity ? at_upper : s;
+}
+
 void ActiveSet::start(const Problem& problem, const KktPattern& pattern, const KktValues& values, const Mask* enabled,
                       const Mask* mask) {
   for (std::int32_t o = 0; o < pattern.rows(); ++o) {
     const std::int32_t p = pattern.row_position[o], i = pattern.node[p] - problem.n();
-    const double lo = values.lo[o], hi = values.hi[o];
-    const mlcp_row_state asked = mask ? mask->state[i] : static_cast<mlcp_row_state>(MLCP_ROW_DISABLED);
-    State s = resting(lo, hi);
-    if (enabled && enabled->state[i] == MLCP_ROW_DISABLED)
-      s = disabled;
-    else if (s == out || (asked == MLCP_ROW_ACTIVE && lo < hi) || (!mask && lo < 0 && hi > 0))
-      s = active;
-    else if (asked == MLCP_ROW_AT_UPPER && hi < infinity)
-      s = at_upper;
+    const State s = asked(values, enabled, mask, o, i);
     state[o] = s;
     deferred[o] = 0;
-    x[p] = s == active && mask && !mask->impulse.empty() ? -mask->impulse[i] : resting_x(s, lo, hi);
+    x[p] = s == active && mask && !mask->impulse.empty() ? -mask->impulse[i] : resting_x(s, values.lo[o], values.hi[o]);
   }
 }
 

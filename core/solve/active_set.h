@@ -27,6 +27,8 @@ struct ActiveSet {
     deferred[o] = 1;
     tolerance[o] = infinity;
   }
+  /// Row o, which is row i of the caller, as `start` has it.
+  State asked(const KktValues& values, const Mask* enabled, const Mask* mask, std::int32_t o, std::int32_t i) const;
   /// x of a row that rests: −γ at its bound, 0 for out and disabled.
   static double resting_x(State state, double lo, double hi);
 };
