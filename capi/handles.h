@@ -7,6 +7,7 @@
 #include "contact_solver.h"
 #include "memory/error.h"
 #include "memory/memory.h"
+#include "report/failure_folder.h"
 
 /// Text of the last failed call on a handle.
 struct ErrorText {
@@ -34,9 +35,10 @@ struct mlcp_mask {
 struct mlcp_solver {
   mlcp::ContactSolver solver;
   mlcp_mask lent;  ///< what mlcp_solver_mask lends: the result's mask
+  mlcp::FailureFolder failures;
   ErrorText error;
 
-  mlcp_solver(const mlcp::Settings& settings, const mlcp::Memory& memory) : solver(settings, memory), lent(memory) {}
+  mlcp_solver(const mlcp::Settings& settings, const mlcp::Memory& memory) : solver(settings, memory), lent(memory), failures(memory) {}
 };
 
 namespace mlcp {

@@ -676,7 +676,8 @@ typedef struct mlcp_factor_view {
 } mlcp_factor_view;
 
 MLCP_API void mlcp_factor_view_init(mlcp_factor_view *view, size_t struct_size);
-/* MLCP_ERROR_STATE before the first mlcp_analyze or mlcp_solve, and after mlcp_solver_trim. */
+/* That of the last analysis. MLCP_ERROR_STATE where there is none: before the first mlcp_analyze or mlcp_solve, after mlcp_solver_trim, and as long as
+ * AUTO has met small islands alone, which it solves without. */
 MLCP_API mlcp_status mlcp_solver_factor(const mlcp_solver *solver, mlcp_factor_view *factor);
 
 /* One step of the method, recorded when settings.trace is set. */
@@ -714,6 +715,16 @@ MLCP_API mlcp_status mlcp_snapshot_load(const char *path, const mlcp_allocator *
 MLCP_API mlcp_status mlcp_snapshot_read(const void *bytes, size_t size, const mlcp_allocator *allocator,
                                         mlcp_problem **problem, mlcp_solver **solver, mlcp_mask **enabled, mlcp_mask **start,
                                         char *message, size_t message_size);
+
+/* From now on every solve that ends with another outcome than MLCP_SOLVED leaves a snapshot in `folder`, which must be there: files
+ * failure-0000.mlcp, failure-0001.mlcp and so on, each whole or not there at all, never over another one, until `limit` (0 .. 10000) of them
+ * are there, whoever made them. Replaying one gives the outcome again, to the same bits unless it hung on the clock or the progress callback.
+ * folder NULL: no longer. A new solver begins with the folder in the environment variable MLCP_FAILURES and the limit in
+ * MLCP_FAILURES_LIMIT (10), if set. A file that cannot be written is no failure of the solve; it costs what mlcp_snapshot_save does, memory
+ * included. */
+MLCP_API mlcp_status mlcp_solver_keep_failures(mlcp_solver *solver, const char *folder, int32_t limit);
+/* The file that the last solve left so, "" if none; never NULL; lent until the next solve. */
+MLCP_API const char *mlcp_solver_failure_file(const mlcp_solver *solver);
 
 #ifdef __cplusplus
 }

@@ -1,6 +1,4 @@
-#include "report/snapshot.h"
-
-#include "handles.h"
+#include "snapshot_source.h"
 
 using namespace mlcp;
 
@@ -19,13 +17,6 @@ struct Owner {
 
 void check_bytes(const void* bytes, size_t size) {
   if (size > 0) require(bytes, "bytes");
-}
-
-SnapshotSource source_of(const Problem& problem, const mlcp_solver* solver, const Settings& defaults, const mlcp_mask* enabled,
-                         const mlcp_mask* start) {
-  const Mask* carried = solver ? solver->solver.found_start(problem) : nullptr;
-  return {problem, solver ? solver->solver.settings() : defaults,
-          solver ? solver->solver.ordering() : std::span<const int32_t>{}, mask_of(enabled), start ? &start->mask : carried};
 }
 
 mlcp_mask* make_mask(const Memory& memory, Mask& from) {

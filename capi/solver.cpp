@@ -1,6 +1,6 @@
 #include "assemble/validate.h"
-#include "handles.h"
 #include "report/reaction.h"
+#include "snapshot_source.h"
 #include "structs.h"
 
 using namespace mlcp;
@@ -84,6 +84,12 @@ mlcp_status mlcp_solver_get_settings(const mlcp_solver* solver, mlcp_settings* s
 
 const char* mlcp_solver_error(const mlcp_solver* solver) { return solver ? solver->error.text : ""; }
 
+mlcp_status mlcp_solver_keep_failures(mlcp_solver* solver, const char* folder, int32_t limit) {
+  return edit(solver, [&](mlcp_solver& s) { s.failures.set(folder, limit); });
+}
+
+const char* mlcp_solver_failure_file(const mlcp_solver* solver) { return solver ? solver->failures.file() : ""; }
+
 mlcp_status mlcp_solver_trim(mlcp_solver* solver) {
   return edit(solver, [](mlcp_solver& s) {
     s.solver.trim();
@@ -112,7 +118,10 @@ mlcp_status mlcp_solve(mlcp_solver* solver, const mlcp_problem* problem, const m
     // start may be the mask that this solver lends, so that changes only afterwards
     s.lent.mask.reserve(problem->problem.m());
     if (!problem->problem.contacts.empty() || !problem->problem.couplings.empty()) s.lent.mask.slip.reserve(problem->problem.m());
+    s.failures.forget();
     s.solver.solve(problem->problem, mask_of(enabled), mask_of(start), full);
+    if (full.outcome != MLCP_SOLVED && !s.failures.full())
+      s.failures.keep(source_of(problem->problem, solver, s.solver.settings(), enabled, start));
     const Mask& mask = s.solver.result().mask;
     s.lent.mask.state.assign(mask.state.span());
     s.lent.mask.key.assign(mask.key.span());

@@ -7,3 +7,10 @@ if(MLCP_SANITIZE)
   target_compile_options(mlcp_options INTERFACE -fsanitize=${MLCP_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(mlcp_options INTERFACE -fsanitize=${MLCP_SANITIZE})
 endif()
+
+# mlcp_coverage: what core and capi are compiled with besides, and all that has them in it linked with; tests/checks/coverage reads it.
+add_library(mlcp_coverage INTERFACE)
+if(MLCP_COVERAGE)
+  target_compile_options(mlcp_coverage INTERFACE --coverage -fprofile-update=atomic)
+  link_libraries(--coverage)
+endif()

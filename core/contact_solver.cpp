@@ -186,8 +186,10 @@ void ContactSolver::State::solve_with(const Problem& problem, const Mask* mask, 
   double seconds_measure = 0;
   errors = Errors{};
   const std::int32_t most = settings.max_shifts > 0 ? settings.max_shifts : default_shifts;
+  solver.set_settings(settings);
   while (true) {
-    if ((stopped = spend(total, since(begin))) != MLCP_SOLVED) break;
+    // the first solve always takes place, if only to be stopped: it leaves a point
+    if (shifts > 0 && (stopped = spend(total, since(begin))) != MLCP_SOLVED) break;
     if (shifts == 0)
       solver.solve(rows.inner, &rows.enabled, &rows.start, one);
     else
@@ -323,7 +325,7 @@ void ContactSolver::State::take_certificates(const Problem& problem) {
   }
 }
 
-/// As Solver does, with the errors of cones.
+/// As Solver does, with the errors of cones: an error within the tolerance is a solution, whatever stopped a method on the rows inside.
 void ContactSolver::State::judge_islands(const Problem& problem) {
   Array<mlcp_outcome>& outcome = result.island_outcome;
   scratch.assign(outcome.size(), 0.0);  // the worst of each island
@@ -333,8 +335,11 @@ void ContactSolver::State::judge_islands(const Problem& problem) {
   };
   for (std::int32_t i = 0; i < problem.m(); ++i) note(i, measure.error[i]);
   for (std::size_t c = 0; c < problem.contacts.size(); ++c) note(problem.contacts[c].row, cones.error[c]);
-  for (std::size_t s = 0; s < outcome.size(); ++s)
+  const bool solved = errors.largest() <= settings.tolerance;
+  for (std::size_t s = 0; s < outcome.size(); ++s) {
     if (outcome[s] == MLCP_SOLVED && !(scratch[s] <= settings.tolerance)) outcome[s] = MLCP_ITERATION_LIMIT;
+    if (outcome[s] == MLCP_ITERATION_LIMIT && solved) outcome[s] = MLCP_SOLVED;
+  }
 }
 
 /// What each contact does. Without a cone, and closed: it slides when it has no friction or a tangent row is at its bound.
@@ -387,7 +392,9 @@ void ContactSolver::State::fill(const Problem& problem, mlcp_report& report) con
   report.cone_residual = errors.cone_residual;
   report.worst_contact = errors.worst_contact;
   if (report.outcome != MLCP_NOT_POSITIVE_DEFINITE) report.worst_velocity = errors.worst_velocity;
-  if (report.outcome == MLCP_SOLVED && !(errors.largest() <= settings.tolerance)) report.outcome = MLCP_ITERATION_LIMIT;
+  const bool solved = errors.largest() <= settings.tolerance;
+  if (report.outcome == MLCP_SOLVED && !solved) report.outcome = MLCP_ITERATION_LIMIT;
+  if (report.outcome == MLCP_ITERATION_LIMIT && solved) report.outcome = MLCP_SOLVED;
   report.enabled_rows = report.active_rows = report.redundant_rows = report.islands_failed = 0;
   for (std::int32_t i = 0; i < problem.m(); ++i) {
     report.enabled_rows += result.mask.state[i] != MLCP_ROW_DISABLED;
@@ -404,10 +411,8 @@ void ContactSolver::State::fill(const Problem& problem, mlcp_report& report) con
 void ContactSolver::trim() {
   State& s = *state_;
   s.solver.trim();
-  const auto renew = [&](auto& part) {
-    std::destroy_at(&part);
-    std::construct_at(&part, s.memory);
-  };
+  // the new one is there before the old one goes: there may be no memory for it
+  const auto renew = [&](auto& part) { part = std::remove_reference_t<decltype(part)>(s.memory); };
   renew(s.generators);
   renew(s.rows);
   renew(s.slip);

@@ -5,6 +5,7 @@
 #include <new>
 #include <thread>
 
+#include "dense_stage.h"
 #include "measure/errors.h"
 #include "stage.h"
 
@@ -35,6 +36,7 @@ void check_mask(const Mask* mask, const Problem& problem, const char* name) {
 struct Solver::State {
   Memory memory;
   Settings settings;
+  DenseStage dense;  ///< tried first where every island is small
   Stage main;
   Stage exact;  ///< rows after velocities everywhere: for islands that newton gave up in another order, and for canonical answers
   Pool pool;
@@ -45,19 +47,28 @@ struct Solver::State {
   Array<double> kept;  ///< v, while a canonical answer is tried
   Errors errors;
   std::int32_t indefinite = -1;  ///< the velocity whose pivot is not positive
+  bool large = false;            ///< `main` has solved the last problem, and its factors stand
 
   State(const Settings& s, const Memory& m)
-      : memory(m), settings(s), main(m), exact(m), pool(m), measure(m), result(m), imposed(m), given_up(m), kept(m) {}
+      : memory(m), settings(s), dense(m), main(m), exact(m), pool(m), measure(m), result(m), imposed(m), given_up(m), kept(m) {}
 
   bool analyze(const Problem& problem, const Mask* enabled, const Poll& poll = {});
-  void solve_free_velocities(const Problem& problem);
+  void clear_findings();
+  void clear_result(const Problem& problem);
+  void solve(const SolveInput& input, const Mask* start, bool again, mlcp_report& report);
+  bool solve_small(const SolveInput& input, const Mask* start, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts);
+  void solve_large(const SolveInput& input, const Mask* start, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts);
+  void solve_large_again(const SolveInput& input, const Mask& start, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts);
+  void take_answer(const SolveInput& input, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts);
+  void find_row_islands(const SolveInput& input);
+  void solve_free_velocities(const Problem& problem, const Array<std::int32_t>& free);
   void read_ends(const Stage& stage, const Problem& problem, bool only_rows, mlcp_report& report, Counts& counts);
+  void take_given_velocities(const Problem& problem);
   void collect(const SolveInput& input);
   void rescue(const SolveInput& input, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts);
   void make_canonical(const SolveInput& input, Watch& watch);
-  void clear_result(const SolveInput& input);
-  void solve(const SolveInput& input, const Mask* start, bool again, Watch& watch, Crew& crew, mlcp_report& report);
-  void judge(const Problem& problem, const Mask* enabled);
+  void look_at_result(const SolveInput& input);
+  void judge(const SolveInput& input);
   void fill(const Problem& problem, mlcp_report& report, const Counts& counts) const;
 };
 
@@ -98,8 +109,8 @@ bool Solver::State::analyze(const Problem& problem, const Mask* enabled, const P
 void Solver::analyze(const Problem& problem, const Mask* enabled) { state_->analyze(problem, enabled); }
 
 /// v = k / M where nothing couples to anything.
-void Solver::State::solve_free_velocities(const Problem& problem) {
-  for (const std::int32_t j : main.analysis.ordering.free_velocity) {
+void Solver::State::solve_free_velocities(const Problem& problem, const Array<std::int32_t>& free) {
+  for (const std::int32_t j : free) {
     const double mass = problem.mass.values[problem.mass.pointers[j]];
     if (!(mass > 0)) indefinite = j;
     result.v[j] = mass > 0 ? problem.momentum[j] / mass : 0;
@@ -129,16 +140,19 @@ void Solver::State::read_ends(const Stage& stage, const Problem& problem, bool o
   }
 }
 
+void Solver::State::take_given_velocities(const Problem& problem) {
+  for (const Body& body : problem.bodies)
+    if (body.prescribed) std::copy_n(problem.given_velocity.begin() + body.offset, body.dimension, result.v.begin() + body.offset);
+}
+
 /// From elimination order back to the caller's. Rows that a stopped analysis has left out rest.
 void Solver::State::collect(const SolveInput& input) {
   const Problem& problem = input.problem;
-  const std::int32_t n = problem.n(), m = problem.m();
-  for (std::int32_t j = 0; j < n; ++j)
-    if (problem.prescribed(j)) result.v[j] = problem.given_velocity[j];
+  const std::int32_t m = problem.m();
+  take_given_velocities(problem);
   result.mask.state.assign(m, MLCP_ROW_AT_LOWER);
   for (std::int32_t i = 0; i < m; ++i)
     if (input.enabled && input.enabled->state[i] == MLCP_ROW_DISABLED) result.mask.state[i] = MLCP_ROW_DISABLED;
-  result.mask.key.assign(problem.key.span());
   result.gamma.assign(m, 0.0);
   main.collect(problem, false, result);
 }
@@ -191,10 +205,15 @@ void Solver::State::make_canonical(const SolveInput& input, Watch& watch) {
   result.mask.state.assign(given_up.state.span());
 }
 
-/// Success is what the caller's own numbers say, island by island; an error within the tolerance is a solution whatever stopped the method.
-void Solver::State::judge(const Problem& problem, const Mask* enabled) {
-  errors = measure.run(problem, enabled, result.v.span(), result.gamma.span());
+void Solver::State::look_at_result(const SolveInput& input) {
+  errors = measure.run(input.problem, input.enabled, result.v.span(), result.gamma.span());
   result.w.assign(measure.w.span());
+}
+
+/// Success is what the caller's own numbers say, island by island; an error within the tolerance is a solution whatever stopped the method.
+void Solver::State::judge(const SolveInput& input) {
+  const Problem& problem = input.problem;
+  look_at_result(input);
   const KktPattern& pattern = main.analysis.pattern;
   const auto& islands = main.analysis.symbolic.islands;
   for (std::size_t s = 0; s < islands.size(); ++s) {
@@ -241,69 +260,119 @@ void Solver::State::fill(const Problem& problem, mlcp_report& report, const Coun
   report.factorizations = counts.factorizations;
   report.refinements = counts.refinements;
   report.work = counts.work;
-  report.factor_entries = main.analysis.symbolic.entries();
   report.seconds_factorize = counts.seconds_factorize;
   report.refactorized_for_drift = counts.drifts;
 }
 
-void Solver::State::clear_result(const SolveInput& input) {
-  const Problem& problem = input.problem;
-  result.v.assign(problem.n(), 0.0);
-  result.redundant.assign(problem.m(), 0);
-  const auto& islands = main.analysis.symbolic.islands;
-  result.row_island.assign(problem.m(), -1);
-  for (std::size_t i = 0; i < islands.size(); ++i)
-    for (std::int32_t o = islands[i].first_row; o < islands[i].last_row; ++o) {
-      const std::int32_t row = main.analysis.pattern.node[main.analysis.pattern.row_position[o]] - problem.n();
-      if (!input.enabled || input.enabled->state[row] != MLCP_ROW_DISABLED) result.row_island[row] = static_cast<std::int32_t>(i);
-    }
-}
-
-/// again: the numbers of rows alone have changed since the last call.
-void Solver::State::solve(const SolveInput& input, const Mask* start, bool again, Watch& watch, Crew& crew, mlcp_report& report) {
-  const Problem& problem = input.problem;
-  const Mask* enabled = input.enabled;
-  result.valid = false;
-  bool analyzed = !again;
-  try {
-    if (!again) analyzed = analyze(problem, enabled, watch.poll());
-  } catch (const Stopped&) {  // the analysis of nothing leads to the answer 0, which is judged like any other
-  }
-  const double after_analysis = watch.seconds();
-
-  Counts counts;
+/// What a solve tells beside v, γ and redundancy.
+void Solver::State::clear_findings() {
   indefinite = -1;
-  report.fallbacks = 0;
-  report.method = -1;
   result.trace.clear();
   result.certificates.clear();
   result.certificate_row.clear();
   result.certificate_y.clear();
-  result.island_outcome.assign(main.analysis.symbolic.islands.size(), MLCP_SOLVED);
-  if (again) {
-    main.solve_again(input, watch, crew, *start, result);
-  } else {
-    clear_result(input);
-    main.load(input, start);
-    main.solve(input, watch, crew, start != nullptr, result);
+}
+
+void Solver::State::clear_result(const Problem& problem) {
+  clear_findings();
+  result.v.assign(problem.n(), 0.0);
+  result.redundant.assign(problem.m(), 0);
+}
+
+/// Where every island is small.  false: it is not, or it could not be solved that way.
+bool Solver::State::solve_small(const SolveInput& input, const Mask* start, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts) {
+  if (!dense.takes(input)) return false;
+  const double after_analysis = watch.seconds();
+  const Problem& problem = input.problem;
+  clear_result(problem);
+  take_given_velocities(problem);
+  solve_free_velocities(problem, dense.components.free_velocity);
+  if (indefinite >= 0 || !dense.solve(input, start, watch, crew, measure, result, errors, counts)) return false;
+  result.w.assign(measure.w.span());
+  result.island_outcome.assign(dense.components.count(), MLCP_SOLVED);
+  result.row_island.assign(dense.components.of_row.span());
+  report.method = MLCP_METHOD_NEWTON;
+  report.analyzed = !dense.knew();
+  report.seconds_analyze = report.analyzed ? after_analysis : 0;
+  report.factor_entries = dense.entries();
+  return true;
+}
+
+void Solver::State::find_row_islands(const SolveInput& input) {
+  const auto& islands = main.analysis.symbolic.islands;
+  const KktPattern& pattern = main.analysis.pattern;
+  result.row_island.assign(input.problem.m(), -1);
+  for (std::size_t s = 0; s < islands.size(); ++s)
+    for (std::int32_t o = islands[s].first_row; o < islands[s].last_row; ++o) {
+      const std::int32_t row = pattern.node[pattern.row_position[o]] - input.problem.n();
+      if (!input.enabled || input.enabled->state[row] != MLCP_ROW_DISABLED) result.row_island[row] = static_cast<std::int32_t>(s);
+    }
+}
+
+void Solver::State::solve_large(const SolveInput& input, const Mask* start, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts) {
+  const Problem& problem = input.problem;
+  const double before = watch.seconds();
+  report.analyzed = true;
+  try {
+    report.analyzed = analyze(problem, input.enabled, watch.poll());
+  } catch (const Stopped&) {  // the analysis of nothing leads to the answer 0, which is judged like any other
   }
-  read_ends(main, problem, false, report, counts);
-  solve_free_velocities(problem);
+  report.seconds_analyze = report.analyzed ? watch.seconds() - before : 0;
+  clear_result(problem);
+  find_row_islands(input);
+  main.load(input, start);
+  main.solve(input, watch, crew, start != nullptr, result);
+  take_answer(input, watch, crew, report, counts);
+  large = true;
+}
+
+void Solver::State::solve_large_again(const SolveInput& input, const Mask& start, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts) {
+  report.analyzed = false;
+  report.seconds_analyze = 0;
+  clear_findings();
+  main.solve_again(input, watch, crew, start, result);
+  take_answer(input, watch, crew, report, counts);
+}
+
+/// From the stage to the result, and its errors.
+void Solver::State::take_answer(const SolveInput& input, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts) {
+  result.island_outcome.assign(main.analysis.symbolic.islands.size(), MLCP_SOLVED);
+  read_ends(main, input.problem, false, report, counts);
+  solve_free_velocities(input.problem, main.analysis.ordering.free_velocity);
   collect(input);
   rescue(input, watch, crew, report, counts);
+  judge(input);
+  report.factor_entries = main.analysis.symbolic.entries();
+}
+
+/// again: the numbers of rows alone have changed since the last call.
+void Solver::State::solve(const SolveInput& input, const Mask* start, bool again, mlcp_report& report) {
+  const Problem& problem = input.problem;
+  result.valid = false;
+  Watch watch(settings);
+  Crew crew(watch, pool);
+  Counts counts;
+  report.fallbacks = 0;
+  report.method = -1;
+  bool small = false;
+  if (again && large) {
+    solve_large_again(input, *start, watch, crew, report, counts);
+  } else {
+    large = false;
+    small = solve_small(input, start, watch, crew, report, counts);
+    if (!small) solve_large(input, start, watch, crew, report, counts);
+  }
   const double after_solve = watch.seconds();
-  judge(problem, enabled);
   if (settings.canonical) {
     make_canonical(input, watch);
-    judge(problem, enabled);
+    small ? look_at_result(input) : judge(input);
   }
+  result.mask.key.assign(problem.key.span());
   result.mask.impulse.assign(result.gamma.span());
   fill(problem, report, counts);
   if (report.outcome == MLCP_ITERATION_LIMIT && result.island_outcome.empty()) report.outcome = watch.stopped();
   report.warm = start != nullptr;
-  report.analyzed = analyzed;
-  report.seconds_analyze = analyzed ? after_analysis : 0;
-  report.seconds_solve = after_solve - after_analysis - counts.seconds_factorize;
+  report.seconds_solve = after_solve - report.seconds_analyze - counts.seconds_factorize;
   report.seconds = watch.seconds();
   report.seconds_report = report.seconds - after_solve;
   result.valid = true;
@@ -314,28 +383,21 @@ void Solver::solve(const Problem& problem, const Mask* enabled, const Mask* star
   check_mask(enabled, problem, "enabled");
   check_mask(start, problem, "start");
   s.pool.resize(s.settings.parallel_for ? 1 : s.settings.num_threads > 0 ? s.settings.num_threads : static_cast<std::int32_t>(std::max(1u, std::thread::hardware_concurrency())));
-  Watch watch(s.settings);
-  Crew crew(watch, s.pool);
-  s.solve({problem, enabled, s.settings}, start, false, watch, crew, report);
+  s.solve({problem, enabled, s.settings}, start, false, report);
 }
 
 void Solver::solve_again(const Problem& problem, const Mask* enabled, const Mask& start, mlcp_report& report) {
-  State& s = *state_;
-  Watch watch(s.settings);
-  Crew crew(watch, s.pool);
-  s.solve({problem, enabled, s.settings}, &start, true, watch, crew, report);
+  state_->solve({problem, enabled, state_->settings}, &start, true, report);
 }
 
 /// The order is kept, so that the next solve gives the same bits as without.
 void Solver::trim() {
   State& s = *state_;
   s.imposed.assign(ordering());
-  for (Stage* stage : {&s.main, &s.exact}) {
-    std::destroy_at(stage);
-    std::construct_at(stage, s.memory);
-  }
-  std::destroy_at(&s.measure);
-  std::construct_at(&s.measure, s.memory);
+  s.dense = DenseStage(s.memory);
+  for (Stage* stage : {&s.main, &s.exact}) stage->renew(s.memory);
+  s.measure = Measure(s.memory);
+  s.large = false;
 }
 
 }  // namespace mlcp

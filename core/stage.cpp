@@ -1,52 +1,6 @@
 #include "stage.h"
 
-#include <algorithm>
-#include <atomic>
-#include <exception>
-
 namespace mlcp {
-namespace {
-
-mlcp_row_state row_state(std::uint8_t state) {
-  switch (state) {
-    case ActiveSet::at_lower: return MLCP_ROW_AT_LOWER;
-    case ActiveSet::at_upper: return MLCP_ROW_AT_UPPER;
-    case ActiveSet::disabled: return MLCP_ROW_DISABLED;
-    default: return MLCP_ROW_ACTIVE;
-  }
-}
-
-/// Islands of one task have at least so many entries of L between them: less is not worth a thread's attention.
-constexpr std::int64_t least_task = 500;
-
-}  // namespace
-
-template <class Task>
-void Crew::run(std::int32_t count, Task task) {
-  const Settings& settings = watch_.settings();
-  if (count <= 1 || (!settings.parallel_for && pool_.threads() <= 1)) {
-    for (std::int32_t index = 0; index < count; ++index) task(index);
-    return;
-  }
-  struct Call {
-    Task& task;
-    std::atomic_flag failed = {};
-    std::exception_ptr error = nullptr;
-  } call{task};
-  const mlcp_task run_one = [](void* data, std::int32_t index, std::int32_t) {
-    Call& c = *static_cast<Call*>(data);
-    try {
-      c.task(index);
-    } catch (...) {
-      if (!c.failed.test_and_set()) c.error = std::current_exception();
-    }
-  };
-  if (settings.parallel_for)
-    settings.parallel_for(settings.parallel_context, count, run_one, &call);
-  else
-    pool_.run(count, run_one, &call, &Watch::ask, &watch_);
-  if (call.error) std::rethrow_exception(call.error);
-}
 
 void Stage::load(const SolveInput& input, const Mask* start) {
   basis.prepare(input.problem, analysis, input.settings);
@@ -60,23 +14,11 @@ void Stage::solve(const SolveInput& input, Watch& watch, Crew& crew, bool warm, 
   basis.factor.ask(watch.poll());
   ends.resize(count);
   Array<mlcp_pivot>* trace = input.settings.trace ? &result.trace : nullptr;
-  // neighbouring islands in one task, by the size of their factors; a trace is written in order, on one thread
-  tasks_.clear();
-  std::int64_t filled = least_task;
-  for (std::int32_t s = 0; s < count; ++s) {
-    if (filled >= least_task && (tasks_.empty() || !trace)) {
-      tasks_.push_back(s);
-      filled = 0;
-    }
-    filled += 10 + analysis.symbolic.pointers[islands[s].last] - analysis.symbolic.pointers[islands[s].first];
-  }
-  const auto tasks = static_cast<std::int32_t>(tasks_.size());
-  tasks_.push_back(count);
-  crew.run(tasks, [&](std::int32_t t) {
-    for (std::int32_t s = tasks_[t]; s < tasks_[t + 1]; ++s) {
-      ends[s] = solve_island(input, basis, check_, watch, s, warm, trace);
-      finish_island(input, basis, watch, s, result.redundant.data(), ends[s]);
-    }
+  const auto cost = [&](std::int32_t s) { return 10 + analysis.symbolic.pointers[islands[s].last] - analysis.symbolic.pointers[islands[s].first]; };
+  // a trace is written in order
+  crew.run(count, tasks_, trace != nullptr, cost, [&](std::int32_t s) {
+    ends[s] = solve_island(input, basis, check_, watch, s, warm, trace);
+    finish_island(input, basis, watch, s, result.redundant.data(), ends[s]);
   });
 }
 
@@ -91,15 +33,16 @@ void Stage::solve_again(const SolveInput& input, Watch& watch, Crew& crew, const
   Counts toggled;
   basis.reload(input.problem, changed_.span(), epsilon_.span(), toggled);
   Array<mlcp_pivot>* trace = input.settings.trace ? &result.trace : nullptr;
-  crew.run(static_cast<std::int32_t>(tasks_.size()) - 1, [&](std::int32_t t) {
-    for (std::int32_t s = tasks_[t]; s < tasks_[t + 1]; ++s) {
-      ends[s].counts = {};
-      if (!changed_[s]) continue;
-      for (std::int32_t o = islands[s].first_row; o < islands[s].last_row; ++o) result.redundant[analysis.pattern.node[basis.position(o)] - n] = 0;
-      ends[s].kept = epsilon_[s] >= 0;
-      solve_island_again(input, basis, check_, watch, s, start, trace, ends[s]);
-      finish_island(input, basis, watch, s, result.redundant.data(), ends[s]);
-    }
+  const auto cost = [&](std::int32_t s) {
+    return changed_[s] ? 10 + analysis.symbolic.pointers[islands[s].last] - analysis.symbolic.pointers[islands[s].first] : std::int64_t(1);
+  };
+  crew.run(static_cast<std::int32_t>(islands.size()), tasks_, trace != nullptr, cost, [&](std::int32_t s) {
+    ends[s].counts = {};
+    if (!changed_[s]) return;
+    for (std::int32_t o = islands[s].first_row; o < islands[s].last_row; ++o) result.redundant[analysis.pattern.node[basis.position(o)] - n] = 0;
+    ends[s].kept = epsilon_[s] >= 0;
+    solve_island_again(input, basis, check_, watch, s, start, trace, ends[s]);
+    finish_island(input, basis, watch, s, result.redundant.data(), ends[s]);
   });
   if (!ends.empty()) ends[0].counts += toggled;
 }
@@ -132,6 +75,14 @@ void Stage::collect(const Problem& problem, bool only_rows, Result& result) cons
       result.gamma[node - n] = basis.set.x[p] == 0 ? 0.0 : -basis.set.x[p];
     }
   }
+}
+
+void Stage::renew(const Memory& memory) {
+  analysis = Analysis(memory);
+  basis = Basis(memory);
+  ends = Array<IslandEnd>(memory);
+  tasks_ = Array<std::int32_t>(memory);
+  check_.trim();
 }
 
 }  // namespace mlcp

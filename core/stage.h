@@ -1,23 +1,10 @@
 #pragma once
 #include "analyze/analysis.h"
+#include "crew.h"
 #include "report/result.h"
 #include "solve/island_solver.h"
-#include "threads/pool.h"
 
 namespace mlcp {
-
-/// Who works on the islands: the caller's parallel_for, our pool, or this thread.
-class Crew {
- public:
-  Crew(Watch& watch, Pool& pool) : watch_(watch), pool_(pool) {}
-  /// task(index) for index 0 .. count − 1. One task may throw bad_alloc or Error, which is thrown again when all have ended.
-  template <class Task>
-  void run(std::int32_t count, Task task);
-
- private:
-  Watch& watch_;
-  Pool& pool_;
-};
 
 /// Analysis, factor and active set of a problem, from the pattern to the point of every island.
 class Stage {
@@ -27,6 +14,9 @@ class Stage {
   Analysis analysis;
   Basis basis;
   Array<IslandEnd> ends;  ///< by island
+
+  /// Gives all memory back. What is new is there before the old goes, so that nothing is half gone when there is no memory for it.
+  void renew(const Memory& memory);
 
   /// Loads the problem's numbers and a start (NULL: rows that may push both ways are active). before: analysis covers the problem.
   void load(const SolveInput& input, const Mask* start);
@@ -43,7 +33,7 @@ class Stage {
 
  private:
   CertificateCheck check_;
-  Array<std::int32_t> tasks_;  // first island of each task, and the end
+  Array<std::int32_t> tasks_;    // of the crew
   Array<std::uint8_t> changed_;  // by island
   Array<double> epsilon_;
 };

@@ -1,17 +1,11 @@
 #include "analyze/analysis.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include "analyze/check_analysis.h"
 
 namespace mlcp {
-namespace {
-
-bool same(const Array<std::int32_t>& a, const Array<std::int32_t>& b) {
-  return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin());
-}
-
-}  // namespace
 
 bool Analysis::covers(const Problem& problem, const Mask* enabled, bool exact) const {
   if (!done_ || exact != exact_ || selection.velocity.size() != problem.momentum.size() || selection.row.size() != problem.r.size()) return false;
@@ -25,18 +19,7 @@ bool Analysis::covers(const Problem& problem, const Mask* enabled, bool exact) c
     used += on;
   }
   if (used < analyzed - analyzed / 4) return false;  // disabled rows must not go on costing
-  return same(mass_pointers_, problem.mass.pointers) && same(mass_indices_, problem.mass.indices) &&
-         same(jacobian_pointers_, problem.jacobian.pointers) && same(jacobian_indices_, problem.jacobian.indices) &&
-         same(sigma_pointers_, problem.compliance.pointers) && same(sigma_indices_, problem.compliance.indices);
-}
-
-void Analysis::remember(const Problem& problem) {
-  mass_pointers_.assign(problem.mass.pointers.span());
-  mass_indices_.assign(problem.mass.indices.span());
-  jacobian_pointers_.assign(problem.jacobian.pointers.span());
-  jacobian_indices_.assign(problem.jacobian.indices.span());
-  sigma_pointers_.assign(problem.compliance.pointers.span());
-  sigma_indices_.assign(problem.compliance.indices.span());
+  return remembered_.fits(problem);
 }
 
 void Analysis::run(const Problem& problem, const Mask* enabled, bool exact, std::span<const std::int32_t> imposed, const Poll& poll) {
@@ -53,7 +36,7 @@ void Analysis::run(const Problem& problem, const Mask* enabled, bool exact, std:
     throw;
   }
   assert(check_analysis(*this));
-  remember(problem);
+  remembered_.take(problem);
   done_ = true;
 }
 
@@ -63,7 +46,7 @@ void Analysis::build(const Problem& problem, const Poll& poll) {
   tree.build(pattern);
   tree.postorder(sequence_);
   for (std::int32_t& p : sequence_) p = pattern.node[p];
-  if (!same(sequence_, ordering.order)) {
+  if (!std::ranges::equal(sequence_, ordering.order)) {
     ordering.order.assign(sequence_.span());
     pattern.build(problem, ordering.order.span());
     tree.build(pattern);

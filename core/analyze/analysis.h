@@ -5,6 +5,7 @@
 #include "analyze/ordering.h"
 #include "analyze/selection.h"
 #include "analyze/symbolic.h"
+#include "assemble/pattern_copy.h"
 
 namespace mlcp {
 
@@ -12,8 +13,7 @@ namespace mlcp {
 class Analysis {
  public:
   explicit Analysis(const Memory& m)
-      : selection(m), crowding(m), ordering(m), pattern(m), tree(m), symbolic(m), parts(m), sequence_(m), mass_pointers_(m),
-        mass_indices_(m), jacobian_pointers_(m), jacobian_indices_(m), sigma_pointers_(m), sigma_indices_(m) {}
+      : selection(m), crowding(m), ordering(m), pattern(m), tree(m), symbolic(m), parts(m), sequence_(m), remembered_(m) {}
 
   Selection selection;
   Crowding crowding;
@@ -30,13 +30,11 @@ class Analysis {
   void run(const Problem& problem, const Mask* enabled, bool exact, std::span<const std::int32_t> imposed, const Poll& poll = {});
 
  private:
-  void remember(const Problem& problem);
   void build(const Problem& problem, const Poll& poll);
 
   bool done_ = false, exact_ = false;
   Array<std::int32_t> sequence_;
-  // the caller's patterns at the last run
-  Array<std::int32_t> mass_pointers_, mass_indices_, jacobian_pointers_, jacobian_indices_, sigma_pointers_, sigma_indices_;
+  PatternCopy remembered_;  // the caller's patterns at the last run
 };
 
 }  // namespace mlcp

@@ -135,8 +135,8 @@ void contacts_declare(Problem& problem, std::int32_t count, std::int32_t dimensi
   for (std::int32_t c = 0; c < count; ++c) {
     check_friction(friction_of(fields, c), dimension, c);
     if (row[c] < 0 || std::int64_t(row[c]) + dimension > problem.m())
-      throw Error(MLCP_ERROR_RANGE, "row[%d] = %d: rows %d .. %d are not all among %d rows", c, row[c], row[c],
-                  row[c] + dimension - 1, problem.m());
+      throw Error(MLCP_ERROR_RANGE, "row[%d] = %d: it and the %d rows behind it are not all among %d rows", c, row[c], dimension - 1,
+                  problem.m());
     if (problem.lo[row[c]] != 0 || problem.hi[row[c]] != infinity)
       throw Error(MLCP_ERROR_ARGUMENT, "row[%d] = %d: a normal row has the bounds 0 and infinity", c, row[c]);
     for (std::int32_t t = 0; t < dimension; ++t)

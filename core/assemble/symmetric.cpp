@@ -156,9 +156,9 @@ void sort_with_diagonal(std::int32_t size, EditWorkspace& work) {
   }
   indices.resize(pointers[size]);
   values.resize(pointers[size]);
-  const auto put = [&](std::int32_t i, std::int32_t j, double value) {
-    indices[next[i]] = j;
-    values[next[i]++] = value;
+  const auto put = [next, &column = indices, &number = values](std::int32_t i, std::int32_t j, double value) {
+    column[next[i]] = j;
+    number[next[i]++] = value;
   };
   for (std::int32_t j = 0; j < size; ++j) {
     for (std::int32_t p = from[j]; p < from[j + 1]; ++p) put(rows[p], j, numbers[p]);

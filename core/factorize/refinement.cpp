@@ -55,15 +55,20 @@ Refinement::Error Refinement::measure(const Island& island, const KktPattern& pa
   return worst;
 }
 
-/// A velocity far below the rounding of momentum, in a row that is still off, is 0: the row holds it exactly there.
-void Refinement::stop_velocities(const Island& island, const KktPattern& pattern, const KktValues& values, const Factor& factor, double* x) {
+/// A velocity far below the rounding of momentum, in a row that is still off, is 0: the row holds it exactly there. So is the impulse of a soft
+/// row, whose only term it is once the velocities are 0, where momentum does not feel it.
+void Refinement::stop(const Island& island, const KktPattern& pattern, const KktValues& values, const Factor& factor, double* x) {
   for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
     const std::int32_t p = pattern.row_position[o];
     if (!factor.in(p) || std::abs(static_cast<double>(residual_[p])) <= noisy * scale_[p]) continue;
+    bool felt = false;
     for (std::int32_t t = pattern.row_pointers[o]; t < pattern.row_pointers[o + 1]; ++t) {
       const std::int32_t q = pattern.row_columns[t];
-      if (!pattern.is_row(q) && std::abs(values.diagonal[q] * x[q]) <= 1e-3 * rounding * scale_[q]) x[q] = 0;
+      const double lost = 1e-3 * rounding * scale_[q];
+      felt |= std::abs(values.row[t] * x[p]) > lost;
+      if (!pattern.is_row(q) && std::abs(values.diagonal[q] * x[q]) <= lost) x[q] = 0;
     }
+    if (!felt && values.diagonal[p] != 0) x[p] = 0;
   }
 }
 
@@ -102,7 +107,7 @@ double Refinement::solve(const Island& island, const KktPattern& pattern, const 
   error = look();
   if (error.off == 0) return error.largest();
   of(best_.data()) = of(x);
-  stop_velocities(island, pattern, values, factor, x);
+  stop(island, pattern, values, factor, x);
   const Error now = look();
   if (better(now, error)) return now.largest();
   of(x) = of(best_.data());

@@ -35,7 +35,7 @@ class Refinement {
   };
   Error measure(const Island& island, const KktPattern& pattern, const KktValues& values, const Factor& factor,
                 const double* b, const double* size, const double* x, std::int64_t& work);
-  void stop_velocities(const Island& island, const KktPattern& pattern, const KktValues& values, const Factor& factor, double* x);
+  void stop(const Island& island, const KktPattern& pattern, const KktValues& values, const Factor& factor, double* x);
 
   Array<long double> residual_;
   Array<double> scale_, correction_, best_;

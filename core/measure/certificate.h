@@ -15,6 +15,7 @@ class CertificateCheck {
   explicit CertificateCheck(const Memory& m) : sum_(m), size_(m), y_(m) {}
   /// Makes room, so that holds() allocates nothing.
   void prepare(const Problem& problem);
+  void trim();  ///< gives the room back
   /// May be called by several threads: they take turns.
   bool holds(const Problem& problem, const Mask* enabled, std::span<const std::int32_t> row, std::span<const double> y);
 

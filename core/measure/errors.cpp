@@ -20,13 +20,12 @@ void Measure::momentum(const Problem& problem, std::span<const double> v, std::s
   const SparseView mass = problem.mass_view(), jacobian = problem.jacobian_view();
   sum_.resize(n);
   size_.resize(n);
-  for (std::int32_t j = 0; j < n; ++j) {
-    long double sum = -static_cast<long double>(problem.momentum[j]);
-    double size = std::abs(problem.momentum[j]);
-    for (std::int32_t t = mass.pointers[j]; t < mass.pointers[j + 1]; ++t) {
-      const double x = v[mass.indices[t]];
-      sum += static_cast<long double>(mass.values[t]) * x;
-      size += std::abs(mass.values[t] * x);
+  for (std::int32_t j = 0, t = 0; j < n; ++j) {
+    double sum = -problem.momentum[j], size = std::abs(sum);
+    for (const std::int32_t end = mass.pointers[j + 1]; t < end; ++t) {
+      const double term = mass.values[t] * v[mass.indices[t]];
+      sum += term;
+      size += std::abs(term);
     }
     sum_[j] = sum;
     size_[j] = size;
@@ -34,19 +33,25 @@ void Measure::momentum(const Problem& problem, std::span<const double> v, std::s
   for (std::int32_t i = 0; i < m; ++i) {
     if (gamma[i] == 0) continue;
     for (std::int32_t t = jacobian.pointers[i]; t < jacobian.pointers[i + 1]; ++t) {
-      sum_[jacobian.indices[t]] -= static_cast<long double>(jacobian.values[t]) * gamma[i];
-      size_[jacobian.indices[t]] += std::abs(jacobian.values[t] * gamma[i]);
+      const double term = jacobian.values[t] * gamma[i];
+      sum_[jacobian.indices[t]] -= term;
+      size_[jacobian.indices[t]] += std::abs(term);
     }
   }
-  velocity_error.assign(n, 0.0);
-  for (std::int32_t j = 0; j < n; ++j) {
-    if (problem.prescribed(j)) continue;
-    const double absolute = or_infinite(std::abs(static_cast<double>(sum_[j])));
-    const double relative = !std::isfinite(size_[j]) ? infinity : or_infinite(size_[j] > 0 ? absolute / size_[j] : absolute);
-    velocity_error[j] = relative;
-    e.momentum_residual = std::max(e.momentum_residual, absolute);
-    if (e.worst_velocity < 0 || relative > e.momentum) e.worst_velocity = j;
-    e.momentum = std::max(e.momentum, relative);
+  velocity_error.resize(n);
+  for (const Body& body : problem.bodies) {
+    for (std::int32_t j = body.offset; j < body.offset + body.dimension; ++j) {
+      if (body.prescribed) {
+        velocity_error[j] = 0;
+        continue;
+      }
+      const double absolute = or_infinite(std::abs(sum_[j])), size = size_[j];
+      const double relative = size > 0 && size < infinity ? absolute / size : size == 0 ? absolute : infinity;
+      velocity_error[j] = relative;
+      e.momentum_residual = std::max(e.momentum_residual, absolute);
+      if (e.worst_velocity < 0 || relative > e.momentum || (relative == e.momentum && j < e.worst_velocity)) e.worst_velocity = j;
+      e.momentum = std::max(e.momentum, relative);
+    }
   }
 }
 
@@ -55,13 +60,17 @@ void Measure::rows(const Problem& problem, const Mask* enabled, std::span<const 
   const std::int32_t n = problem.n(), m = problem.m();
   const SparseView mass = problem.mass_view(), jacobian = problem.jacobian_view(), sigma = problem.compliance_view();
   // size_ := 1/M_jj, 0 for prescribed velocities
-  size_.assign(n, 0.0);
-  for (std::int32_t j = 0; j < n; ++j) {
-    if (problem.prescribed(j)) continue;
-    double diagonal = 0;
-    for (std::int32_t t = mass.pointers[j]; t < mass.pointers[j + 1]; ++t)
-      if (mass.indices[t] == j) diagonal = mass.values[t];
-    size_[j] = diagonal > 0 ? diagonal : 1;
+  size_.resize(n);
+  for (const Body& body : problem.bodies) {
+    for (std::int32_t j = body.offset; j < body.offset + body.dimension; ++j) {
+      double diagonal = 0;
+      if (!body.sparse)  // a dense block
+        diagonal = mass.values[mass.pointers[j] + j - body.offset];
+      else
+        for (std::int32_t t = mass.pointers[j]; t < mass.pointers[j + 1]; ++t)
+          if (mass.indices[t] == j) diagonal = mass.values[t];
+      size_[j] = body.prescribed ? 0 : diagonal > 0 ? diagonal : 1;
+    }
   }
   w.assign(m, 0.0);
   scale.assign(m, 0.0);
@@ -71,20 +80,20 @@ void Measure::rows(const Problem& problem, const Mask* enabled, std::span<const 
   double largest_a = 0;
   for (std::int32_t i = 0; i < m; ++i) {
     if (enabled && enabled->state[i] == MLCP_ROW_DISABLED) continue;
-    long double sum = -static_cast<long double>(problem.r[i]);
-    double size = std::abs(problem.r[i]), square = problem.sigma(i);
+    double sum = -problem.r[i], size = std::abs(problem.r[i]), square = problem.sigma(i);
     for (std::int32_t t = jacobian.pointers[i]; t < jacobian.pointers[i + 1]; ++t) {
       const std::int32_t j = jacobian.indices[t];
       const double x = jacobian.values[t], v0 = size_[j] > 0 ? problem.momentum[j] / size_[j] : v[j];
-      sum += static_cast<long double>(x) * v[j];
+      sum += x * v[j];
       size += std::abs(x) * (std::abs(v[j]) + std::abs(v0));
       if (size_[j] > 0) square += (x / size_[j]) * x;
     }
     for (std::int32_t t = sigma.pointers[i]; t < sigma.pointers[i + 1]; ++t) {
-      sum += static_cast<long double>(sigma.values[t]) * gamma[sigma.indices[t]];
-      size += std::abs(sigma.values[t] * gamma[sigma.indices[t]]);
+      const double term = sigma.values[t] * gamma[sigma.indices[t]];
+      sum += term;
+      size += std::abs(term);
     }
-    w[i] = static_cast<double>(sum);
+    w[i] = sum;
     scale[i] = size > 0 ? size : 1;
     a[i] = square;
     largest_a = std::max(largest_a, square);

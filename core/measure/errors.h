@@ -6,7 +6,8 @@
 
 namespace mlcp {
 
-/// How far (v, γ) is from a solution, from the caller's numbers alone. Anything not finite is an infinite error.
+/// How far (v, γ) is from a solution, from the caller's numbers alone. Anything not finite is an infinite error. Sums are those of double precision:
+/// what rounding adds to a residual is rounding of the very terms that it is divided by.
 struct Errors {
   double momentum = 0;              ///< componentwise backward error (Oettli & Prager 1964) over dynamic velocities
   double constraints = 0;           ///< natural residual in velocity units over the size of its terms
@@ -37,12 +38,12 @@ class Measure {
   Array<double> error;           ///< residual / scale per row
   Array<double> velocity_error;  ///< per velocity
   /// (M v − Jᵀγ − k)ⱼ of the last run.
-  double momentum_residual(std::int32_t j) const { return static_cast<double>(sum_[j]); }
+  double momentum_residual(std::int32_t j) const { return sum_[j]; }
 
  private:
   void momentum(const Problem& problem, std::span<const double> v, std::span<const double> gamma, Errors& e);
   void rows(const Problem& problem, const Mask* enabled, std::span<const double> v, std::span<const double> gamma, Errors& e);
-  Array<long double> sum_;
+  Array<double> sum_;
   Array<double> size_;
 };
 

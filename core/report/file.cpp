@@ -47,15 +47,26 @@ class TemporaryFile {
     }
   }
   void take_place() {
+    finish();
+    if (rename(name_.data(), target_) != 0) fail("cannot replace", target_, errno);
+    moved_ = true;
+  }
+  /// false: the place is taken.
+  bool take_free_place() {
+    finish();
+    if (link(name_.data(), target_) == 0) return true;
+    if (errno != EEXIST) fail("cannot create", target_, errno);
+    return false;
+  }
+
+ private:
+  void finish() {
     if (fsync(file_) != 0) fail("cannot flush", target_, errno);
     const int closed = close(file_);
     file_ = -1;
     if (closed != 0) fail("cannot close", target_, errno);
-    if (rename(name_.data(), target_) != 0) fail("cannot replace", target_, errno);
-    moved_ = true;
   }
 
- private:
   const char* target_;
   Array<char> name_;
   int file_ = -1;
@@ -87,6 +98,13 @@ void write_file(const Memory& memory, const char* path, std::span<const std::uin
   } catch (const std::bad_alloc&) {
     // the file is complete and in place
   }
+}
+
+bool write_new_file(const Memory& memory, const char* path, std::span<const std::uint8_t> bytes) {
+  if (access(path, F_OK) == 0) return false;
+  TemporaryFile file(memory, path);
+  file.write(bytes);
+  return file.take_free_place();
 }
 
 InputFile::InputFile(const char* path) : path_(path), file_(open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {

@@ -11,6 +11,9 @@ namespace mlcp {
 /// fails: Error (IO), bad_alloc; the old file is as it was and no other is left.
 void write_file(const Memory& memory, const char* path, std::span<const std::uint8_t> bytes);
 
+/// The same where there is no file of that name yet.  false: there is one, which stays.
+bool write_new_file(const Memory& memory, const char* path, std::span<const std::uint8_t> bytes);
+
 /// A file that is open for reading. Only regular files: their size justifies the memory.
 class InputFile {
  public:

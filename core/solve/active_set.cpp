@@ -21,23 +21,31 @@ double ActiveSet::resting_x(State state, double lo, double hi) {
   return state == at_lower ? -lo : state == at_upper ? -hi : 0.0;
 }
 
-ActiveSet::State ActiveSet::asked(const KktValues& values, const Mask* enabled, const Mask* mask, std::int32_t o, std::int32_t i) const {
-  const double lo = values.lo[o], hi = values.hi[o];
-  const mlcp_row_state in_mask = mask ? mask->state[i] : static_cast<mlcp_row_state>(MLCP_ROW_DISABLED);
-  const State s = resting(lo, hi);
-  if (enabled && enabled->state[i] == MLCP_ROW_DISABLED) return disabled;
-  if (s == out || (in_mask == MLCP_ROW_ACTIVE && lo < hi) || (!mask && lo < 0 && hi > 0)) return active;
-  return in_mask == MLCP_ROW_AT_UPPER && hi < infinity ? at_upper : s;
+ActiveSet::State ActiveSet::starting(const Problem& problem, std::int32_t row, const Mask* mask) {
+  const double lo = problem.lo[row], hi = problem.hi[row];
+  const State rests = resting(lo, hi);
+  if (rests == out || (mask ? mask->state[row] == MLCP_ROW_ACTIVE && lo < hi : lo < 0 && hi > 0)) return active;
+  return mask && mask->state[row] == MLCP_ROW_AT_UPPER && hi < infinity ? at_upper : rests;
 }
 
 void ActiveSet::start(const Problem& problem, const KktPattern& pattern, const KktValues& values, const Mask* enabled,
                       const Mask* mask) {
   for (std::int32_t o = 0; o < pattern.rows(); ++o) {
     const std::int32_t p = pattern.row_position[o], i = pattern.node[p] - problem.n();
-    const State s = asked(values, enabled, mask, o, i);
+    const double lo = values.lo[o], hi = values.hi[o];
+    const State s = enabled && enabled->state[i] == MLCP_ROW_DISABLED ? disabled : starting(problem, i, mask);
     state[o] = s;
     deferred[o] = 0;
-    x[p] = s == active && mask && !mask->impulse.empty() ? -mask->impulse[i] : resting_x(s, values.lo[o], values.hi[o]);
+    x[p] = s == active && mask && !mask->impulse.empty() ? -mask->impulse[i] : resting_x(s, lo, hi);
+  }
+}
+
+mlcp_row_state row_state(std::uint8_t state) {
+  switch (state) {
+    case ActiveSet::at_lower: return MLCP_ROW_AT_LOWER;
+    case ActiveSet::at_upper: return MLCP_ROW_AT_UPPER;
+    case ActiveSet::disabled: return MLCP_ROW_DISABLED;
+    default: return MLCP_ROW_ACTIVE;
   }
 }
 

@@ -21,17 +21,20 @@ struct ActiveSet {
 
   /// The state a row has when it is not active: its finite bound, the lower one first.
   static State resting(double lo, double hi);
+  /// The state that an enabled row starts in, by the caller's mask if there is one.
+  static State starting(const Problem& problem, std::int32_t row, const Mask* mask);
   /// Starts from the caller's mask (NULL: only rows that may push both ways are active).
   void start(const Problem& problem, const KktPattern& pattern, const KktValues& values, const Mask* enabled, const Mask* mask);
   void defer(std::int32_t o) {
     deferred[o] = 1;
     tolerance[o] = infinity;
   }
-  /// Row o, which is row i of the caller, as `start` has it.
-  State asked(const KktValues& values, const Mask* enabled, const Mask* mask, std::int32_t o, std::int32_t i) const;
   /// x of a row that rests: −γ at its bound, 0 for out and disabled.
   static double resting_x(State state, double lo, double hi);
 };
+
+/// What the caller is told.
+mlcp_row_state row_state(std::uint8_t state);
 
 /// w = K(rows,:) x − b over the rows of an island; active rows included.
 /// cost: entries of J and Σ.

@@ -82,8 +82,6 @@ void Basis::reload(const Problem& problem, std::span<std::uint8_t> changed, std:
   }
 }
 
-double Basis::zero() const { return std::clamp(settings_->tolerance * 1e-4, 2e-15, 1e-13); }
-
 void Basis::rest(std::int32_t o, ActiveSet::State to) {
   set.state[o] = to;
   set.x[position(o)] = ActiveSet::resting_x(to, values.lo[o], values.hi[o]);

@@ -57,7 +57,7 @@ class Basis {
   void look_at_slacks(const Island& island, Counts& counts);
 
   /// Slacks up to this, relative to the scale of their error, count as zero while solving.
-  double zero() const;
+  double zero() const { return zero_slack(*settings_); }
 
   /// The invariant of an island, for assertions.
   bool check(const Island& island) const;

@@ -69,7 +69,7 @@ class Run {
     std::size_t count = 0;
     for (std::int32_t o = island_.first_row; o < island_.last_row; ++o) {
       const std::int32_t p = basis_.position(o), i = basis_.pattern->node[p] - input_.problem.n();
-      const ActiveSet::State to = set.asked(basis_.values, input_.enabled, &start, o, i);
+      const ActiveSet::State to = set.state[o] == ActiveSet::disabled ? ActiveSet::disabled : ActiveSet::starting(input_.problem, i, &start);
       set.deferred[o] = 0;
       if (kept && to != set.state[o])
         flips[count++] = {o, to};

@@ -9,7 +9,7 @@ namespace mlcp {
 namespace {
 
 /// Full steps may go on so often without fewer changes than ever before.
-constexpr int patience = 3;
+constexpr int patience = 10;
 /// Refined points as good as this are judged row by row; worse ones stand on a factor that cannot be trusted.
 constexpr double refined = 1e-13;
 constexpr double first_epsilon = 1e-2, reduction = 0.3;
@@ -33,14 +33,16 @@ void Newton::go_back(const Island& island) {
   }
 }
 
-/// Full steps until no row changes.
+/// Full steps until no row changes. Where changes at once do not become fewer, only the larger ones are made, down to a single one: rows that undo
+/// each other's changes are told apart (after the backup rule of Júdice & Pires 1994).
 Newton::Ending Newton::full_steps(const Island& island, double drop) {
   std::size_t fewest = SIZE_MAX;
+  int share = 0;  // 2^−share of the changes are made
   for (int left = patience;;) {
     stopped_ = limits_.check(counts_, 0);
     if (stopped_ != MLCP_SOLVED) return Ending::stopped;
     proximal_.newton_point(island);
-    const auto flips = proximal_.flips_of_full_step(island);
+    auto flips = proximal_.flips_of_full_step(island);
     ++counts_.pivots;
     if (flips.empty()) {
       keep(island);
@@ -49,9 +51,13 @@ Newton::Ending Newton::full_steps(const Island& island, double drop) {
     if (flips.size() < fewest) {
       fewest = flips.size();
       left = patience;
+      share = std::max(0, share - 1);
     } else if (--left < 0) {
       return Ending::stuck;
+    } else {
+      ++share;
     }
+    if (share > 0) flips = proximal_.largest(flips, std::max<std::size_t>(1, flips.size() >> share));
     if (basis_.change(island, flips, drop, counts_) > 0 && drop > 0) return Ending::dependent;
   }
 }

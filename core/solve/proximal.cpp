@@ -1,5 +1,6 @@
 #include "solve/proximal.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "memory/slice.h"
@@ -74,6 +75,21 @@ std::span<const Flip> Proximal::flips(const Island& island, double epsilon) {
       flips[count++] = {o, ActiveSet::active};
   }
   return {flips, count};
+}
+
+std::span<const Flip> Proximal::largest(std::span<const Flip> flips, std::size_t count) {
+  Flip* first = basis_.work.flips.data() + (flips.data() - basis_.work.flips.data());
+  const auto distance = [&](const Flip& f) {
+    const double root = basis_.values.root_a[f.o], gamma = basis_.gamma(f.o);
+    return f.to == ActiveSet::active       ? std::abs(basis_.set.w[f.o]) / root
+           : f.to == ActiveSet::at_lower ? root * (basis_.values.lo[f.o] - gamma)
+                                           : root * (gamma - basis_.values.hi[f.o]);
+  };
+  std::nth_element(first, first + (count - 1), first + flips.size(), [&](const Flip& a, const Flip& b) {
+    const double da = distance(a), db = distance(b);
+    return da > db || (da == db && a.o < b.o);
+  });
+  return {first, count};
 }
 
 double Proximal::impulse(std::int32_t o, double slack) const {

@@ -30,6 +30,10 @@ class Proximal {
   /// Rows whose state does not fit x by ε = 0. before: w and what counts as zero are fresh.
   std::span<const Flip> flips_of_point(const Island& island) { return flips(island, 0); }
 
+  /// The `count` flips whose rows are furthest from their state: |w|/√a of those that enter, √a times the excess of the impulse of those that
+  /// leave. Ties go to the first.  before: flips come from one of the two above.
+  std::span<const Flip> largest(std::span<const Flip> flips, std::size_t count);
+
   /// Starts a descent on f at the present x.
   void start_descent(const Island& island);
   /// Rows whose state is not that of f at the point of the descent.

@@ -1,5 +1,7 @@
 #include "solve/settings.h"
 
+#include <algorithm>
+
 #include <cmath>
 #include <cstdint>
 
@@ -45,5 +47,7 @@ void check_settings(const Settings& settings) {
   if (settings.max_shifts < 0) refuse("max_shifts", settings.max_shifts, "is negative");
   if (!(settings.max_seconds >= 0)) refuse("max_seconds", settings.max_seconds, "is negative");
 }
+
+double zero_slack(const Settings& settings) { return std::clamp(settings.tolerance * 1e-4, 2e-15, 1e-13); }
 
 }  // namespace mlcp

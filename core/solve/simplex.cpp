@@ -156,9 +156,10 @@ void Simplex::record(Array<mlcp_pivot>& trace, std::int32_t entering, const Step
 }
 
 /// Nothing blocks a step along impulses alone: a proof that there is no solution, or else no dependence but a large mass ratio or a narrow
-/// wedge. again: the row is to be tried once more, as an independent one.
+/// wedge. again: the row is to be tried once more, as an independent one. What the tolerance forgives needs no proof and stays violated.
 mlcp_outcome Simplex::stand_still(const Island& island, std::int32_t entering, bool& again) {
-  if (certifying_ && certify(island, entering)) return leave(island, entering, MLCP_INFEASIBLE);
+  const double forgiven = basis_.set.tolerance[entering] * (input_.settings.tolerance / basis_.zero());
+  if (certifying_ && std::abs(basis_.set.w[entering]) > forgiven && certify(island, entering)) return leave(island, entering, MLCP_INFEASIBLE);
   again = direction_.schur > lost_pivot;
   if (again) {
     dependent_ = std::max(lost_pivot, 0.5 * direction_.schur);

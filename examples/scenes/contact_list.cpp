@@ -13,6 +13,7 @@ void ContactList::add(std::int32_t body_a, std::int32_t body_b, std::span<const 
   gap_.push_back(at.gap);
   friction_.push_back(material.friction);
   restitution_.push_back(material.restitution);
+  stiffness_.push_back(material.stiffness);
   for (const Point& direction : directions) {
     drive_.push_back(dot(direction, material.velocity));
     actions_.push_back({at.point, direction});
@@ -33,13 +34,18 @@ double ContactList::approach(std::size_t contact, std::span<const double> v) con
   return sum;
 }
 
-void ContactList::add_to(const Problem& problem, double h, double stabilisation, mlcp_friction model, std::span<const double> v) const {
+void ContactList::add_to(const Problem& problem, double h, double stabilisation, const FrictionLaw& law, std::span<const double> v) const {
   if (gap_.empty()) return;
-  std::vector<double> r = drive_;
-  std::vector<mlcp_friction> models(gap_.size(), model);
+  std::vector<double> r = drive_, compliance(drive_.size());
+  std::vector<mlcp_friction> models(gap_.size(), law.model);
+  const std::vector<std::int32_t> facets(gap_.size(), law.facets);
   for (std::size_t i = 0; i < gap_.size(); ++i) {
-    double& normal = r[i * static_cast<std::size_t>(rows_)];
-    check(mlcp_timestep_rows(h, stabilisation, true, 1, &gap_[i], nullptr, &normal));
+    const std::size_t row = i * static_cast<std::size_t>(rows_);
+    double& normal = r[row];
+    if (std::isfinite(stiffness_[i]))
+      check(mlcp_timestep_spring(h, stiffness_[i], 0, gap_[i], &compliance[row], &normal));
+    else
+      check(mlcp_timestep_rows(h, stabilisation, true, 1, &gap_[i], nullptr, &normal));
     if (friction_[i] == 0) models[i] = MLCP_FRICTION_NONE;
     if (restitution_[i] == 0) continue;
     const double before = approach(i, v);
@@ -55,8 +61,10 @@ void ContactList::add_to(const Problem& problem, double h, double stabilisation,
   contacts.jacobian_b = jacobian_.data() + rows_ * dimension_;
   contacts.jacobian_a_stride = contacts.jacobian_b_stride = 2 * rows_ * dimension_ * static_cast<std::ptrdiff_t>(sizeof(double));
   contacts.r = r.data();
+  contacts.compliance = compliance.data();
   contacts.mu = friction_.data();
   contacts.model = models.data();
+  contacts.facets = facets.data();
   contacts.key = key_.data();
   check(mlcp_problem_contacts_add(problem.get(), &contacts, nullptr), problem);
 }

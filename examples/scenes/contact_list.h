@@ -1,4 +1,6 @@
 #pragma once
+#include <cmath>
+
 #include "geometry/contact_point.h"
 #include "row_list.h"
 
@@ -6,9 +8,15 @@ namespace scenes {
 
 /// What two surfaces are like where they touch.
 struct Material {
-  double friction = 0;           // coefficient µ; 0: the contact has no tangent rows' forces
+  double friction = 0;           // coefficient µ; of Coulomb's law, 0: none
   double restitution = 0;        // Newton's coefficient, of approaches faster than `slow`
+  double stiffness = INFINITY;   // of the surfaces along the normal, N/m
   Point velocity = {0, 0, 0};    // of a's surface along itself, beyond that of its body: a conveyor belt, m/s
+};
+
+struct FrictionLaw {
+  mlcp_friction model = MLCP_FRICTION_CONVEX;
+  std::int32_t facets = 8;  // 0: the circular cone
 };
 
 constexpr double slow = 0.05;  // m/s
@@ -24,7 +32,7 @@ class ContactList {
            std::span<const Point> directions, const ContactPoint& at, const Material& material);
 
   /// r by the time stepping of paper (2.5) with step h and stabilisation K, from velocities v, then mlcp_problem_contacts_add.
-  void add_to(const Problem& problem, double h, double stabilisation, mlcp_friction model, std::span<const double> v) const;
+  void add_to(const Problem& problem, double h, double stabilisation, const FrictionLaw& law, std::span<const double> v) const;
 
   void draw(Drawing& to) const;
   std::int32_t count() const { return static_cast<std::int32_t>(gap_.size()); }
@@ -37,7 +45,7 @@ class ContactList {
   std::int32_t dimension_, rows_;
   std::vector<std::int32_t> body_a_, body_b_;
   std::vector<double> jacobian_;  // 2·rows·dimension a contact: a's block, b's block
-  std::vector<double> gap_, friction_, restitution_;
+  std::vector<double> gap_, friction_, restitution_, stiffness_;
   std::vector<double> drive_;     // phi_t of the tangent rows, `rows` a contact, the first 0
   std::vector<std::uint64_t> key_;
   std::vector<Drawing::Action> actions_;

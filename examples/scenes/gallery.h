@@ -7,11 +7,19 @@
 
 namespace scenes {
 
+/// Which steps, of default_step each, make a film that shows what a scene does.
+struct Film {
+  std::int32_t steps;
+  std::int32_t every = 1;  // a frame each so many steps
+  std::int32_t from = 0;   // the first frame
+};
+
 /// A scene that can be asked for by name.
 struct Exhibit {
   const char* name;
   const char* unit;           // what its size counts
   std::int32_t default_size;  // small enough to be stepped while somebody watches
+  Film film;
   std::unique_ptr<Scene> (*make)(std::int32_t size, unsigned seed);
 };
 

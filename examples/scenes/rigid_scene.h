@@ -5,10 +5,12 @@
 
 namespace scenes {
 
-/// A place where two bodies (or MLCP_WORLD and a body) are joined: the same frame as each of them sees it.
+/// A place where two bodies (or MLCP_WORLD and a body) are joined: the same frame as each of them sees it. In a plane its y axis is the
+/// plane's normal.
 struct Joint {
   std::int32_t a, b;
   Frame on_a, on_b;
+  double reach = 0.1;  // how far from the origin the points lie that keep directions, m
 };
 
 /// Rigid bodies in space or in a plane: their masses, gravity along −z, gyroscopic forces, and how they move. A derived scene says what
@@ -21,6 +23,9 @@ class RigidScene : public Scene {
   const Frame& frame(std::int32_t body) const;
   std::span<const RigidBody> bodies() const { return bodies_; }
 
+  /// Of the centre of mass; 0 for the world.
+  Point velocity_of(std::int32_t body) const;
+  void place_body(std::int32_t body, const Frame& at);
   void set_velocity(std::int32_t body, const Twist& velocity);
   void prescribe(std::int32_t body, const Twist& velocity);
 
@@ -35,7 +40,7 @@ class RigidScene : public Scene {
   void add_pin(RowList& rows, const Joint& joint) const;
   /// Turns about the joint's z axis, in space. 5 rows.
   void add_hinge(RowList& rows, const Joint& joint) const;
-  /// Slides along the joint's z axis. 5 rows, 2 in a plane (whose normal is then the joint's y axis).
+  /// Slides along the joint's z axis. 5 rows, 2 in a plane.
   void add_slider(RowList& rows, const Joint& joint) const;
 
   void add_contact(ContactList& contacts, std::int32_t a, std::int32_t b, const ContactPoint& at, const Material& material) const;
@@ -50,10 +55,8 @@ class RigidScene : public Scene {
   double potential_energy() const override;
 
  private:
-  /// φ = n · (p_b − p_a) with n fixed in a, features of joints from 0 on.
-  void add_offset(RowList& rows, const Joint& joint, const Point& n, std::int32_t feature) const;
-  /// φ = n_a · n_b, of two axes that stay at right angles.
-  void add_square(RowList& rows, const Joint& joint, std::size_t axis_a, std::size_t axis_b, std::int32_t feature) const;
+  /// φ = n · (p_b − p_a) of the points at `place` in the joint's frame, with n fixed in a.
+  void add_offset(RowList& rows, const Joint& joint, const Point& place, const Point& n, std::int32_t feature) const;
 
   Point plane_normal() const;
   /// The components that move.

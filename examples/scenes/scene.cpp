@@ -22,7 +22,7 @@ void Scene::prepare(double h) {
         problem_);
   check(mlcp_problem_rows_clear(problem_.get()), problem_);
   listed_rows().add_to(problem_, h, stabilisation);
-  listed_contacts().add_to(problem_, h, stabilisation, friction_, velocity_);
+  listed_contacts().add_to(problem_, h, stabilisation, law_, velocity_);
   if (!stepped_) return;
   const mlcp_mask* previous = nullptr;
   check(mlcp_solver_mask(solver_.get(), &previous));
@@ -62,8 +62,9 @@ ContactList Scene::listed_contacts() const {
 
 Scene::Violation Scene::violation() const {
   const RowList rows = listed_rows();
+  const ContactList contacts = listed_contacts();
   Violation violation = {rows.deepest(), rows.drift()};
-  for (const double gap : listed_contacts().gaps()) violation.penetration = std::max(violation.penetration, -gap);
+  for (const double gap : contacts.gaps()) violation.penetration = std::max(violation.penetration, -gap);
   return violation;
 }
 

@@ -29,8 +29,9 @@ class Scene {
   const mlcp_solver* solver() const { return solver_.get(); }
   std::span<const double> velocities() const { return velocity_; }
   void use(const mlcp_settings& settings);
-  /// The model of every contact with friction from now on; Coulomb's until then.
-  void use(mlcp_friction model) { friction_ = model; }
+  /// The law of every contact with friction from now on. Until then convex pyramids of 8 facets (Anitescu 2006), as the paper proposes: what
+  /// slides opens by µ times its way in a step, which is little where things roll or stick.
+  void use(const FrictionLaw& law) { law_ = law; }
 
   /// −gap of the deepest contact or limit, at least 0, and |φ| of the worst joint, at the present positions; m, or rad where a row turns.
   struct Violation {
@@ -74,7 +75,7 @@ class Scene {
 
  private:
   std::int32_t dimension_, rows_of_contact_;
-  mlcp_friction friction_ = MLCP_FRICTION_COULOMB;
+  FrictionLaw law_;
   Problem problem_;
   Solver solver_;
   Mask start_;

@@ -485,6 +485,12 @@ TEST_F(SolverApi, FactorHasThePatternOfEveryEnabledRow) {
   EXPECT_EQ(mlcp_solver_factor(s, &factor), MLCP_ERROR_STATE);
   EXPECT_EQ(mlcp_solver_factor(s, nullptr), MLCP_ERROR_NULL);
   ASSERT_EQ(mlcp_solve(s, p, nullptr, nullptr, &report), MLCP_OK);
+  EXPECT_EQ(mlcp_solver_factor(s, &factor), MLCP_ERROR_STATE) << "small islands need none";
+  mlcp_settings settings;
+  mlcp_settings_init(&settings, sizeof settings);
+  settings.method = MLCP_METHOD_SIMPLEX;
+  ASSERT_EQ(mlcp_solver_set_settings(s, &settings), MLCP_OK);
+  ASSERT_EQ(mlcp_solve(s, p, nullptr, nullptr, &report), MLCP_OK);
   ASSERT_EQ(mlcp_solver_factor(s, &factor), MLCP_OK);
   // two islands, a velocity and its row each: one entry below the diagonal, then a root
   ASSERT_EQ(factor.size, 4);

@@ -48,6 +48,17 @@ TEST(Newton, ChainsAgreeWithTheSimplex) {
   }
 }
 
+/// On this positive definite A whole steps go round: {2, 3}, {0, 2}, {0, 1, 2, 3}, {0, 3} and again.
+TEST(Newton, RowsThatUndoEachOthersChangesAreToldApart) {
+  const Eigen::Matrix4d A{{22, -13, -9, -22}, {-13, 34, -4, 25}, {-9, -4, 7, 5}, {-22, 25, 5, 33}};
+  const mlcp::Problem p = reduced_problem(A, Eigen::Vector4d(1.5, 9.5, -4.5, -1.5));
+  const mlcp::Mask start = mask_of({MLCP_ROW_AT_LOWER, MLCP_ROW_AT_LOWER, MLCP_ROW_AT_LOWER, MLCP_ROW_AT_LOWER});
+  const Solution s = solve(p, with(MLCP_METHOD_NEWTON), nullptr, &start);
+  EXPECT_EQ(fault(dense(p), s), "");
+  EXPECT_EQ(s.report.fallbacks, 0);
+  EXPECT_LT(s.report.pivots, 10);
+}
+
 TEST(Newton, DependentContactsOfAStack) {
   for (const int boxes : {1, 5, 20}) {
     const mlcp::Problem p = stack(boxes);

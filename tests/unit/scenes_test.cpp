@@ -161,7 +161,11 @@ TEST(Scenes, joints_of_a_chain_stay_closed_and_contacts_do_not_pull) {
 }
 
 TEST(Scenes, warm_steps_need_few_pivots) {
-  const auto later_pivots = [](Scene&& scene) {
+  mlcp_settings pivoting;
+  mlcp_settings_init(&pivoting, sizeof pivoting);
+  pivoting.method = MLCP_METHOD_SIMPLEX;
+  const auto later_pivots = [&](Scene&& scene) {
+    scene.use(pivoting);
     std::int64_t first = scene.step(default_step).pivots, later = 0;
     constexpr int steps = 20;
     for (int i = 0; i < steps; ++i) {

@@ -202,7 +202,9 @@ TEST(Solver, TraceHasEveryPivot) {
 TEST(Solver, CountsAddUp) {
   Random random(8);
   const mlcp::Problem p = random_chain(random, 20, 2, 1);
-  const Solution toggled = solve(p), fresh = solve(p, settings(MLCP_PIVOT_DUAL, MLCP_REFACTORIZE_ALWAYS));
+  mlcp::Settings with_toggles = settings(), without = settings(MLCP_PIVOT_DUAL, MLCP_REFACTORIZE_ALWAYS);
+  with_toggles.method = without.method = MLCP_METHOD_SIMPLEX;
+  const Solution toggled = solve(p, with_toggles), fresh = solve(p, without);
   EXPECT_GT(toggled.report.toggles, 0);
   EXPECT_EQ(fresh.report.toggles, 0);
   EXPECT_GT(fresh.report.factorizations, toggled.report.factorizations);

@@ -12,6 +12,7 @@ from ._core import (
     Result,
     Scene,
     Solver,
+    Work,
     dumps,
     load,
     loads,
@@ -33,7 +34,9 @@ from .errors import (
     StateError,
     UnsupportedError,
 )
-from .folder import ProblemFolder, read_folder
+from .fclib import read_fclib, write_fclib
+from .folder import read_folder
+from .form import ProblemFile
 from .many import solve_many
 from .one_line import QPSolution, solve, solve_lcp, solve_qp
 from .records import Certificate, Contacts, ContactState, Counts, Drawing, Errors, Factor, Outcome, Progress, RowState, Snapshot, Times
@@ -56,7 +59,7 @@ __all__ = [
     "NotSolved",
     "Outcome",
     "Problem",
-    "ProblemFolder",
+    "ProblemFile",
     "Progress",
     "QPSolution",
     "RangeError",
@@ -68,10 +71,12 @@ __all__ = [
     "StateError",
     "Times",
     "UnsupportedError",
+    "Work",
     "__version__",
     "dumps",
     "load",
     "loads",
+    "read_fclib",
     "read_folder",
     "save",
     "scenes",
@@ -82,4 +87,5 @@ __all__ = [
     "timestep_erp_cfm",
     "timestep_rows",
     "timestep_spring",
+    "write_fclib",
 ]

@@ -210,6 +210,8 @@ cdef extern from "mlcp.h" nogil:
         int32_t islands
         double violation
     ctypedef int32_t (*mlcp_progress_callback)(void *, const mlcp_progress *) noexcept
+    ctypedef void (*mlcp_task)(void *, int32_t, int32_t) noexcept
+    ctypedef void (*mlcp_parallel_for)(void *, int32_t, mlcp_task, void *) noexcept
     ctypedef struct mlcp_settings:
         size_t struct_size
         mlcp_method method
@@ -226,6 +228,8 @@ cdef extern from "mlcp.h" nogil:
         int32_t canonical
         int32_t warm_start
         int32_t num_threads
+        mlcp_parallel_for parallel_for
+        void *parallel_context
         int32_t facets
         int32_t max_shifts
     void mlcp_settings_init(mlcp_settings *, size_t)

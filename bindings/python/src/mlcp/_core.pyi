@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
 from typing import Any, Literal, TypedDict
 
 import numpy as np
@@ -11,7 +12,7 @@ import scipy.sparse
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Buffer, Self, TypeAlias, Unpack
 
-from .records import Certificate, Contacts, Counts, Drawing, Errors, Factor, Outcome, Progress, RowState, Snapshot, Times
+from .records import Certificate, Contacts, Counts, Drawing, Errors, Exhibit, Factor, Outcome, Progress, RowState, Snapshot, Times
 
 # SciPy has no types: any of its sparse matrices and arrays, or what NumPy makes a dense one of
 MatrixLike: TypeAlias = ArrayLike | scipy.sparse.sparray | scipy.sparse.spmatrix
@@ -24,7 +25,7 @@ Friction: TypeAlias = Literal["none", "convex", "coulomb", "box", "findex"]
 
 version: str
 pivot_dtype: np.dtype[np.void]
-scenes: dict[str, tuple[str, int]]
+scenes: dict[str, Exhibit]
 
 class Settings(TypedDict, total=False):
     method: Method
@@ -44,6 +45,12 @@ class Settings(TypedDict, total=False):
 
 class SolverSettings(Settings, total=False):
     progress: Callable[[Progress], object] | None
+    parallel_for: Executor | Callable[[Work], object] | None
+
+class Work:
+    @property
+    def count(self) -> int: ...
+    def __call__(self) -> None: ...
 
 class Lender: ...
 
@@ -59,9 +66,12 @@ class Problem(Lender):
     @classmethod
     def from_folder(cls, path: str | os.PathLike[str], *, friction: Friction | None = None) -> Self: ...
     @classmethod
+    def from_fclib(cls, path: str | os.PathLike[str], *, friction: Friction | None = None) -> Self: ...
+    @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> Self: ...
     @classmethod
     def from_bytes(cls, data: Buffer) -> Self: ...
+    def to_fclib(self, path: str | os.PathLike[str]) -> None: ...
     def to_bytes(self) -> bytes: ...
     def copy(self) -> Self: ...
     def __copy__(self) -> Self: ...
@@ -208,6 +218,10 @@ class Solver:
     def progress(self) -> Callable[[Progress], object] | None: ...
     @progress.setter
     def progress(self, callback: Callable[[Progress], object] | None) -> None: ...
+    @property
+    def parallel_for(self) -> Executor | Callable[[Work], object] | None: ...
+    @parallel_for.setter
+    def parallel_for(self, parallel_for: Executor | Callable[[Work], object] | None) -> None: ...
     @property
     def result(self) -> Result | None: ...
     def analyze(self, problem: Problem, *, enabled: Mask | None = None) -> None: ...

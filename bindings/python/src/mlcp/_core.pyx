@@ -15,7 +15,7 @@ import threading
 import numpy as np
 import scipy.sparse
 
-from mlcp import errors, records
+from mlcp import errors, records, threads
 from mlcp._abi cimport *
 
 cnp.import_array()
@@ -33,6 +33,7 @@ include "timestep.pxi"
 include "mask.pxi"
 include "result.pxi"
 include "watch.pxi"
+include "parallel.pxi"
 include "settings.pxi"
 include "solver.pxi"
 include "bound.pxi"

@@ -7,19 +7,27 @@ from mlcp._abi cimport mlcp_mask, mlcp_problem, mlcp_report, mlcp_settings, mlcp
 cdef extern from "scenes/scenes.h" namespace "scenes" nogil:
     cdef cppclass Point "scenes::Point":
         double &operator[](size_t)
-    cdef cppclass Sphere "scenes::Drawing::Sphere":
+    cdef enum class Role "scenes::Drawing::Role":
+        pass
+    cdef cppclass Ball "scenes::Drawing::Ball":
         Point centre
         double radius
+        Role role
+    cdef cppclass Face "scenes::Drawing::Face":
+        vector[Point] corners
+        Role role
     cdef cppclass Action "scenes::Drawing::Action":
         Point point
         Point direction
     cdef cppclass Corners "scenes::Drawing::Corners":
         Point &operator[](size_t)
     cdef cppclass Drawing:
-        vector[Sphere] spheres
+        vector[Ball] spheres
         vector[Corners] boxes
         vector[vector[Point]] paths
+        vector[Face] faces
         vector[Action] actions
+        Point eye
 
     cdef cppclass CppScene "scenes::Scene":
         void prepare(double) except +
@@ -30,10 +38,15 @@ cdef extern from "scenes/scenes.h" namespace "scenes" nogil:
         void use(const mlcp_settings &) except +
         void draw(Drawing &) except +
 
+    cdef cppclass Film "scenes::Film":
+        int steps
+        int every
+        int start "from"
     cdef cppclass Exhibit "scenes::Exhibit":
         const char *name
         const char *unit
         int default_size
+        Film film
     cdef cppclass Gallery "std::span<const scenes::Exhibit>":
         size_t size()
         const Exhibit &operator[](size_t)

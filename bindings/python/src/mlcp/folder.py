@@ -15,7 +15,7 @@ import gzip
 import json
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import scipy.io
@@ -24,28 +24,15 @@ from numpy.typing import NDArray
 
 from ._core import Problem
 from .errors import FileError, FormatError
+from .form import ProblemFile, ProblemForm, compressed_rows, make_problem
 
 if TYPE_CHECKING:
     from ._core import Friction
 
-__all__ = ["ProblemFolder", "read_folder"]
+__all__ = ["read_folder"]
 
 
-class ProblemFolder(NamedTuple):
-    """A problem and where its rows stand in the files."""
-
-    problem: Problem
-    file_rows: NDArray[np.int64]  #: of each row of the problem
-    file_row_count: int  #: rows in the files, those of friction included
-
-    def in_files(self, gamma: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Impulses in the order of the files, 0 for rows that were left out."""
-        spread = np.zeros(self.file_row_count)
-        spread[self.file_rows] = gamma
-        return spread
-
-
-def read_folder(path: str | os.PathLike[str], problem_class: type[Problem] = Problem, *, friction: Friction | None = None) -> ProblemFolder:
+def read_folder(path: str | os.PathLike[str], problem_class: type[Problem] = Problem, *, friction: Friction | None = None) -> ProblemFile:
     """Read the problem of a folder.
 
     Parameters
@@ -55,7 +42,8 @@ def read_folder(path: str | os.PathLike[str], problem_class: type[Problem] = Pro
     problem_class : type
         What to make, `Problem` or a subclass.
     friction : str, optional
-        Model of all contacts, as in `Problem.add_contacts`. None: the frictionless problem, without tangent rows.
+        Model of all contacts, as in `Problem.add_contacts`. None: the frictionless problem, without tangent rows. Rows of rolling
+        friction are left out.
 
     Raises
     ------
@@ -68,8 +56,10 @@ def read_folder(path: str | os.PathLike[str], problem_class: type[Problem] = Pro
     """
     folder = Path(path)
     meta = _read_meta(folder)
-    read = _read_reduced if meta["form"] == "reduced" else _read_global
-    return read(folder, meta, problem_class, friction)
+    form = _read_reduced(folder, meta) if meta["form"] == "reduced" else _read_global(folder)
+    _read_contacts(folder, meta, form)
+    form.keys = _keys(folder, len(form.shift))
+    return make_problem(form, problem_class, friction)
 
 
 def _read_meta(folder: Path) -> dict[str, Any]:
@@ -110,13 +100,15 @@ def _matrix(folder: Path, name: str, shape: tuple[int | None, int | None]) -> An
         raise FileError(f"{folder / name}.mtx: no such file")
     if any(size is not None and size != found for size, found in zip(shape, matrix.shape)):
         raise FormatError(f"{folder / name}.mtx: is {matrix.shape[0]} x {matrix.shape[1]}, not {shape[0] or '…'} x {shape[1] or '…'}")
-    return scipy.sparse.csr_array(matrix)
+    return compressed_rows(matrix, f"{folder / name}.mtx")
 
 
-def _vector(folder: Path, name: str, size: int) -> NDArray[Any]:
-    """A file of one row or column; zeros where there is none."""
+def _vector(folder: Path, name: str, size: int, *, needed: bool = False) -> NDArray[Any]:
+    """A file of one row or column; zeros where there is none and none is needed."""
     vector = _read(folder, name)
     if vector is None:
+        if needed:
+            raise FileError(f"{folder / name}.mtx: no such file")
         return np.zeros(size)
     dense = np.asarray(vector.todense() if scipy.sparse.issparse(vector) else vector).ravel()
     if dense.shape != (size,):
@@ -129,50 +121,26 @@ def _keys(folder: Path, rows: int) -> NDArray[np.uint64]:
     return (_vector(folder, "key", rows) + 1).astype(np.uint64)
 
 
-def _have_tangents(folder: Path, meta: dict[str, Any]) -> bool:
-    return meta["dim"] > 1 and meta["contacts"] > 0 and (meta["friction"] or _read(folder, "mu") is not None)
-
-
-def _choose_rows(folder: Path, meta: dict[str, Any], bilateral: int, rows: int, friction: Friction | None) -> NDArray[np.int64]:
-    """All rows with friction, else all but the tangents of contacts."""
-    end = bilateral + meta["contacts"] * meta["dim"] if _have_tangents(folder, meta) else bilateral
-    if end > rows:
-        raise FormatError(f"{folder / 'meta.json'}: contacts times dim is more than there are rows")
-    index = np.arange(rows)
-    if friction is not None:
-        return index
-    return np.flatnonzero((index < bilateral) | (index >= end) | ((index - bilateral) % meta["dim"] == 0))
-
-
-def _declare_contacts(problem: Problem, folder: Path, meta: dict[str, Any], bilateral: int, friction: Friction | None) -> None:
-    if friction is None or not _have_tangents(folder, meta):
+def _read_contacts(folder: Path, meta: dict[str, Any], form: ProblemForm) -> None:
+    """Contacts of the file, if its rows come in groups."""
+    if meta["dim"] < 2 or meta["contacts"] == 0 or not (meta["friction"] or _read(folder, "mu") is not None):
         return
-    count, dimension = meta["contacts"], meta["dim"]
-    problem.declare_contacts(bilateral + dimension * np.arange(count), dimension, mu=_vector(folder, "mu", count), model=friction)
+    form.contacts, form.dimension = meta["contacts"], meta["dim"]
+    if form.end_of_contacts > len(form.shift):
+        raise FormatError(f"{folder / 'meta.json'}: contacts times dim is more than there are rows")
+    form.mu = _vector(folder, "mu", form.contacts, needed=True)
 
 
-def _read_global(folder: Path, meta: dict[str, Any], problem_class: type[Problem], friction: Friction | None) -> ProblemFolder:
+def _read_global(folder: Path) -> ProblemForm:
     mass = _matrix(folder, "M", (None, None))
     n = mass.shape[1]
-    blocks = [_matrix(folder, name, (None, n)) for name in ("C", "D") if _read(folder, name) is not None]
-    jacobian = scipy.sparse.vstack(blocks, format="csr") if blocks else scipy.sparse.csr_array((0, n))
-    rows = jacobian.shape[0]
-    bilateral = blocks[0].shape[0] if _read(folder, "C") is not None else 0
-    shift = np.concatenate([_vector(folder, "c", bilateral), _vector(folder, "d", rows - bilateral)])
-    chosen = _choose_rows(folder, meta, bilateral, rows, friction)
-    problem = problem_class.from_matrices(mass, _vector(folder, "k", n), jacobian[chosen], -shift[chosen],
-                                          np.where(chosen < bilateral, -np.inf, 0.0), keys=_keys(folder, rows)[chosen])
-    _declare_contacts(problem, folder, meta, bilateral, friction)
-    return ProblemFolder(problem, chosen, rows)
+    c, d = (_matrix(folder, name, (None, n)) if _read(folder, name) is not None else scipy.sparse.csr_array((0, n)) for name in "CD")
+    shift = np.concatenate([_vector(folder, "c", c.shape[0]), _vector(folder, "d", d.shape[0])])
+    return ProblemForm(c.shape[0], shift, mass=mass, k=_vector(folder, "k", n), jacobian=scipy.sparse.vstack([c, d], format="csr"))
 
 
-def _read_reduced(folder: Path, meta: dict[str, Any], problem_class: type[Problem], friction: Friction | None) -> ProblemFolder:
+def _read_reduced(folder: Path, meta: dict[str, Any]) -> ProblemForm:
     matrix = _matrix(folder, "A", (None, None))
-    rows, bilateral = matrix.shape[0], meta["nC"]
-    if bilateral > rows:
+    if meta["nC"] > matrix.shape[0]:
         raise FormatError(f"{folder / 'meta.json'}: nC is more than there are rows")
-    chosen = _choose_rows(folder, meta, bilateral, rows, friction)
-    problem = problem_class.from_reduced(matrix[chosen][:, chosen], _vector(folder, "b", rows)[chosen],
-                                         np.where(chosen < bilateral, -np.inf, 0.0), keys=_keys(folder, rows)[chosen])
-    _declare_contacts(problem, folder, meta, bilateral, friction)
-    return ProblemFolder(problem, chosen, rows)
+    return ProblemForm(meta["nC"], _vector(folder, "b", matrix.shape[0]), a=matrix)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable, Sequence
 from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
 from typing import TYPE_CHECKING
@@ -10,6 +9,7 @@ from typing import TYPE_CHECKING
 from tqdm import tqdm
 
 from ._core import Mask, Problem, Result, Solver
+from .threads import cores
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -52,7 +52,7 @@ def solve_many(problems: Iterable[Problem], starts: Sequence[Mask | None] | None
         if masks is not None and len(masks) != len(todo):
             raise ValueError(f"{name} has {len(masks)} entries for {len(todo)} problems")
     if workers is None:
-        workers = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+        workers = cores()
     if workers < 1:
         raise ValueError(f"workers = {workers} is not positive")
     results: list[Result | None] = [None] * len(todo)

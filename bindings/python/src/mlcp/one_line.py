@@ -8,8 +8,9 @@ import numpy as np
 import scipy.sparse
 from numpy.typing import ArrayLike, NDArray
 
-from ._core import Problem, Result, Solver
+from ._core import Mask, Problem, Result, Solver
 from .errors import ArgumentError, NotSolved
+from .records import RowState
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -105,15 +106,15 @@ class QPSolution(NamedTuple):
 
 @overload
 def solve_qp(P: MatrixLike, q: ArrayLike, G: MatrixLike | None = ..., h: ArrayLike | None = ..., A: MatrixLike | None = ...,
-             b: ArrayLike | None = ..., lb: ArrayLike | None = ..., ub: ArrayLike | None = ..., *, full_output: Literal[False] = ...,
-             **settings: Unpack[SolverSettings]) -> NDArray[np.float64]: ...
+             b: ArrayLike | None = ..., lb: ArrayLike | None = ..., ub: ArrayLike | None = ..., *, initvals: ArrayLike | None = ...,
+             full_output: Literal[False] = ..., **settings: Unpack[SolverSettings]) -> NDArray[np.float64]: ...
 @overload
 def solve_qp(P: MatrixLike, q: ArrayLike, G: MatrixLike | None = ..., h: ArrayLike | None = ..., A: MatrixLike | None = ...,
-             b: ArrayLike | None = ..., lb: ArrayLike | None = ..., ub: ArrayLike | None = ..., *, full_output: Literal[True],
-             **settings: Unpack[SolverSettings]) -> QPSolution: ...
+             b: ArrayLike | None = ..., lb: ArrayLike | None = ..., ub: ArrayLike | None = ..., *, initvals: ArrayLike | None = ...,
+             full_output: Literal[True], **settings: Unpack[SolverSettings]) -> QPSolution: ...
 def solve_qp(P: MatrixLike, q: ArrayLike, G: MatrixLike | None = None, h: ArrayLike | None = None, A: MatrixLike | None = None,
-             b: ArrayLike | None = None, lb: ArrayLike | None = None, ub: ArrayLike | None = None, *, full_output: bool = False,
-             **settings: Unpack[SolverSettings]) -> NDArray[np.float64] | QPSolution:
+             b: ArrayLike | None = None, lb: ArrayLike | None = None, ub: ArrayLike | None = None, *, initvals: ArrayLike | None = None,
+             full_output: bool = False, **settings: Unpack[SolverSettings]) -> NDArray[np.float64] | QPSolution:
     """Solve the convex quadratic program min ½ xᵀ P x + qᵀ x under G x ≤ h, A x = b, lb ≤ x ≤ ub.
 
     The arguments stand in the order of ``qpsolvers``.
@@ -128,6 +129,8 @@ def solve_qp(P: MatrixLike, q: ArrayLike, G: MatrixLike | None = None, h: ArrayL
     A, b : (l, n) sparse or dense and (l,) array, optional
     lb, ub : (n,) array or number, optional
         −inf and inf constrain nothing; where both are equal x is fixed.
+    initvals : (n,) array, optional
+        A guess of x: the solve starts from the constraints that it meets with equality, to 1e-6 of what they sum up.
     full_output : bool
         Return a `QPSolution` with the multipliers and the `Result`, also when it is not solved.
     **settings
@@ -152,7 +155,8 @@ def solve_qp(P: MatrixLike, q: ArrayLike, G: MatrixLike | None = None, h: ArrayL
     problem = Problem.from_matrices(P, -np.asarray(q, dtype=np.float64))
     if rows.blocks:
         problem.add_matrix_rows(scipy.sparse.vstack(rows.blocks, format="csr"), np.concatenate(rows.r), np.concatenate(rows.lo))
-    result = Solver(**settings).solve(problem)
+    start = None if initvals is None else _active_at(problem, initvals)
+    result = Solver(**settings).solve(problem, start)
     if full_output:
         x = result.v
         z, y, z_box = rows.multipliers(result.gamma)
@@ -160,6 +164,16 @@ def solve_qp(P: MatrixLike, q: ArrayLike, G: MatrixLike | None = None, h: ArrayL
     if not result.solved:
         raise NotSolved(result)
     return result.v
+
+
+def _active_at(problem: Problem, x: ArrayLike) -> Mask:
+    """The rows that x meets with equality are active, the others at rest."""
+    guess = np.asarray(x, dtype=np.float64)
+    if guess.shape != (problem.velocities,):
+        raise ArgumentError(f"initvals has shape {guess.shape}, not ({problem.velocities},)")
+    jacobian, r = problem.jacobian(), problem.r
+    active = (np.abs(jacobian @ guess - r) <= 1e-6 * (abs(jacobian) @ np.abs(guess) + np.abs(r))) | (problem.lo == -np.inf)
+    return Mask(np.where(active, RowState.ACTIVE, RowState.AT_LOWER))
 
 
 class _QPRows:

@@ -12,10 +12,10 @@ cdef class Problem(Lender):
         J v + Σ γ − r = w                       constraint rows
         lo ≤ γ ≤ hi,   wᵢ > 0 ⇒ γᵢ = lo,   wᵢ < 0 ⇒ γᵢ = hi,   else wᵢ = 0
 
-    `Problem()` is empty; `from_matrices`, `from_reduced`, `from_folder`, `from_file` and `from_bytes` make whole ones. Arrays that
-    are passed in are copied by the library before a call returns; they may be read-only, and are never changed. float64 and int32
-    arrays in C order are read in place; other real dtypes, layouts and 64-bit indices cost a copy, and indices that do not fit into
-    32 bits are an error. A call that fails changes nothing.
+    `Problem()` is empty; `from_matrices`, `from_reduced`, `from_folder`, `from_fclib`, `from_file` and `from_bytes` make whole ones.
+    Arrays that are passed in are copied by the library before a call returns; they may be read-only, and are never changed. float64 and
+    int32 arrays in C order are read in place; other real dtypes, layouts and 64-bit indices cost a copy, and indices that do not fit
+    into 32 bits are an error. A call that fails changes nothing.
 
     Any number of solvers in any number of threads may solve one problem at a time; while they do, and while an array that
     `mass`, `jacobian` or `compliance_matrix` lent without a copy is alive, calls that change it raise `StateError` or `BufferError`.
@@ -114,10 +114,24 @@ cdef class Problem(Lender):
         return read_folder(path, cls, friction=friction).problem
 
     @classmethod
+    def from_fclib(cls, path, *, friction=None):
+        """The problem in an FCLIB file (HDF5), without friction or with this model of it; `mlcp.read_fclib` also tells where its rows
+        stand in the file. Needs h5py, ``pip install mlcp[fclib]``.
+
+        Raises
+        ------
+        ImportError, FileError, FormatError, ArgumentError, RangeError
+        """
+        from mlcp.fclib import read_fclib
+        return read_fclib(path, cls, friction=friction).problem
+
+    @classmethod
     def from_file(cls, path):
-        """The problem in a snapshot file, or in a folder of Matrix Market files."""
+        """The problem in a snapshot file, a folder of Matrix Market files or an FCLIB file, without friction in the latter two."""
         if os.path.isdir(path):
             return cls.from_folder(path)
+        if begins_as_hdf5(path):
+            return cls.from_fclib(path)
         cdef Problem problem = cls.__new__(cls)
         read_snapshot_file(path, problem, None, NULL, NULL)
         return problem
@@ -128,6 +142,11 @@ cdef class Problem(Lender):
         cdef Problem problem = cls.__new__(cls)
         read_snapshot(data, problem, None, NULL, NULL)
         return problem
+
+    def to_fclib(self, path):
+        """Writes bilateral rows and contacts as a new FCLIB file; see `mlcp.write_fclib`."""
+        from mlcp.fclib import write_fclib
+        write_fclib(path, self)
 
     def to_bytes(self):
         """Snapshot of the problem alone; `mlcp.dumps` adds solver and masks."""
@@ -669,6 +688,15 @@ cdef class Problem(Lender):
         mlcp_matrix_view_init(&view, sizeof(mlcp_matrix_view))
         check(mlcp_problem_compliance(self.handle, &view))
         return self.matrix(&view, False, copy)
+
+
+cdef bint begins_as_hdf5(object path) except -1:
+    """A file that cannot be opened does not; whoever reads it says why."""
+    try:
+        with open(path, "rb") as file:
+            return file.read(8) == b"\x89HDF\r\n\x1a\n"
+    except OSError:
+        return False
 
 
 cdef cnp.ndarray friction_numbers(object model, Py_ssize_t count):

@@ -38,6 +38,11 @@ cdef class Solver:
         Of the cones of contacts that do not say; 0: the circular cone, else at least 3.
     max_shifts : int
         Solves of the iteration for friction; 0: 300.
+    parallel_for : concurrent.futures.Executor or callable, optional
+        The caller's threads instead of the solver's own: an executor of threads, or ``share(work)``, which is called on the solving thread
+        and calls ``work()`` on as many threads as it likes; each call takes islands until none is left. What it leaves, the solving
+        thread does. The bits do not depend on it. While the solving thread waits for the others, Ctrl-C and `progress` wait for the
+        islands that they have begun.
     progress : callable, optional
         Called on the solving thread with a `Progress` at the beginning and then about every 20 ms; a true value stops the solve
         with status "interrupted", an exception stops it and is raised.
@@ -51,7 +56,7 @@ cdef class Solver:
     -----
     The GIL is released during a solve; one solver serves one thread at a time, else `StateError`. Ctrl-C stops a solve on the main
     thread: KeyboardInterrupt is raised, and `result` holds the last iterate. Pickling and `copy.deepcopy` keep the settings without
-    `progress`; a snapshot (`mlcp.dumps`) also keeps the ordering.
+    `progress` and `parallel_for`; a snapshot (`mlcp.dumps`) also keeps the ordering.
     """
     cdef mlcp_solver *handle
     cdef Watch watch_state
@@ -64,8 +69,10 @@ cdef class Solver:
     cdef object __weakref__
     cdef readonly Result result  # of the last solve, None before the first one
     cdef object progress_
+    cdef object parallel_for_
+    cdef object share_among  # what becomes of parallel_for_: share(work), or None
 
-    def __cinit__(self, *, progress=None, **settings):
+    def __cinit__(self, *, progress=None, parallel_for=None, **settings):
         cdef mlcp_settings fields
         mlcp_settings_init(&fields, sizeof(mlcp_settings))
         write_settings(&fields, settings)
@@ -75,6 +82,7 @@ cdef class Solver:
             check(status)
         mlcp_report_init(&self.report, sizeof(mlcp_report))
         self.maker = getpid()
+        self.parallel_for = parallel_for
         self.progress = progress
 
     cdef int refuse(self, const mlcp_settings *fields) except -1:
@@ -106,7 +114,7 @@ cdef class Solver:
 
     @property
     def settings(self):
-        """All settings but `progress`, by name."""
+        """All settings but `progress` and `parallel_for`, by name."""
         cdef mlcp_settings fields
         mlcp_settings_init(&fields, sizeof(mlcp_settings))
         check(mlcp_solver_get_settings(self.handle, &fields))
@@ -117,10 +125,12 @@ cdef class Solver:
         self.idle()
         if "progress" in settings:
             self.progress = settings.pop("progress")
+        if "parallel_for" in settings:
+            self.parallel_for = settings.pop("parallel_for")
         self.write(settings)
 
     cdef int write(self, dict settings) except -1:
-        """Present settings with these over them, and `watch` in place."""
+        """Present settings with these over them, `watch` and `share` in place."""
         cdef mlcp_settings fields
         mlcp_settings_init(&fields, sizeof(mlcp_settings))
         check(mlcp_solver_get_settings(self.handle, &fields))
@@ -128,6 +138,10 @@ cdef class Solver:
         self.threads = self.threads or fields.num_threads != 1
         fields.progress = watch
         fields.progress_context = &self.watch_state
+        fields.parallel_for = share
+        if self.share_among is None:
+            fields.parallel_for = NULL
+        fields.parallel_context = <void *>self
         return self.done(mlcp_solver_set_settings(self.handle, &fields))
 
     @property
@@ -143,7 +157,36 @@ cdef class Solver:
         self.progress_ = callback
         self.write({})
 
+    @property
+    def parallel_for(self):
+        """The executor or callable, or None."""
+        return self.parallel_for_
+
+    @parallel_for.setter
+    def parallel_for(self, parallel_for):
+        share_among = threads.sharing(parallel_for)
+        self.idle()
+        self.parallel_for_, self.share_among = parallel_for, share_among
+        self.write({})
+
     # ------------------------------------------------------------------------------------------------------- solving
+
+    cdef void share(self, int32_t count, mlcp_task task, void *data) noexcept:
+        """Exceptions stop the solve and wait until it has ended."""
+        cdef Work work = Work.__new__(Work)
+        work.count, work.task, work.data = count, task, data
+        try:
+            self.share_among(work)
+        except BaseException as error:
+            self.fail(error)
+        try:
+            work.finish()
+        except BaseException as error:
+            self.fail(error)
+
+    cdef void fail(self, object error) noexcept:
+        self.error = error if self.error is None else self.error
+        self.stop.store(1)
 
     cdef int32_t look(self, const mlcp_progress *now) noexcept:
         """Signals and the caller's callback, with the GIL. Exceptions wait until the solve has ended."""
@@ -153,7 +196,7 @@ cdef class Solver:
                 return 0
             return bool(self.progress_(records.Progress(now.seconds, now.pivots, now.work, now.island, now.islands, now.violation)))
         except BaseException as error:
-            self.error = error
+            self.fail(error)
             return 1
 
     cdef int run(self, Problem problem, const mlcp_mask *enabled, const mlcp_mask *start, bint only_analyze) except -1:
@@ -264,7 +307,7 @@ cdef class Solver:
         self.done(mlcp_solver_trim(self.handle))
 
     def __copy__(self):
-        return type(self)(progress=self.progress_, **self.settings)
+        return type(self)(progress=self.progress_, parallel_for=self.parallel_for_, **self.settings)
 
     def __deepcopy__(self, memo):
         return type(self)(**self.settings)

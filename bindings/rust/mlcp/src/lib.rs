@@ -3,10 +3,12 @@
 #![deny(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod body;
+mod bulk;
 mod callbacks;
 mod constants;
 mod contacts;
 mod error;
+mod factor;
 mod library;
 mod mask;
 mod matrix;
@@ -14,6 +16,7 @@ mod memory;
 mod numbers;
 mod pivot;
 mod problem;
+mod real;
 mod report;
 mod request;
 mod rows;
@@ -25,16 +28,18 @@ pub mod timestep;
 
 pub use body::Body;
 pub use callbacks::Progress;
-pub use contacts::{Contact, ContactState, Friction};
+pub use contacts::{Contact, ContactState, Contacts, Friction, FrictionFields};
 pub use error::{Error, Result};
+pub use factor::Factor;
 pub use library::version;
 pub use mask::{Mask, MaskRef, RowState};
 pub use matrix::{Compressed, MatrixView, Triangle};
 pub use pivot::Pivot;
 pub use problem::Problem;
+pub use real::Real;
 pub use report::{Outcome, Report, Times};
 pub use request::Request;
-pub use rows::{Real, Row, RowFields, RowFieldsMut, Rows};
+pub use rows::{Row, RowFields, RowFieldsMut, Rows};
 pub use settings::{Impulses, Method, PivotRule, Refactorize, Settings};
 pub use snapshot::{Recording, Snapshot};
 pub use solver::{Certificate, Solver};

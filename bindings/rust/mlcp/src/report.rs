@@ -40,7 +40,7 @@ pub struct Report {
     pub momentum_error: f64,
     /// Natural residual of the rows, relative to what they are made of.
     pub constraint_error: f64,
-    /// The larger of the two, which the tolerance is for.
+    /// The largest of `momentum_error`, `constraint_error` and `cone_error`, which the tolerance is for.
     pub largest_error: f64,
     /// Largest residual of the momentum equation, N·s.
     pub momentum_residual: f64,
@@ -84,6 +84,26 @@ pub struct Report {
     pub warm: bool,
     /// Islands that a method gave up and another one solved.
     pub fallbacks: usize,
+    /// Largest error of a contact with a cone of friction, relative to its scale; the rows of such contacts are not in `constraint_error`.
+    pub cone_error: f64,
+    /// The same in m/s.
+    pub cone_residual: f64,
+    /// Where `cone_error` is.
+    pub worst_contact: Option<usize>,
+    /// Contacts with friction that have no impulse.
+    pub contacts_open: usize,
+    /// Contacts with friction that hold and do not slide.
+    pub contacts_sticking: usize,
+    /// Contacts with friction that slide.
+    pub contacts_sliding: usize,
+    /// Rows that stand for cones in the solves.
+    pub generators: usize,
+    /// Most generators that one contact needed, those aimed anew included.
+    pub facets: usize,
+    /// Solves of the iteration for friction.
+    pub shift_iterations: usize,
+    /// Islands that Lemke's method, the finite fallback for friction, solved.
+    pub islands_by_lemke: usize,
 }
 
 /// Wall-clock times of a solve.
@@ -142,6 +162,16 @@ impl Report {
             refactorized_for_drift: count(raw.refactorized_for_drift),
             warm: raw.warm != 0,
             fallbacks: count(raw.fallbacks),
+            cone_error: raw.cone_error,
+            cone_residual: raw.cone_residual,
+            worst_contact: index(raw.worst_contact),
+            contacts_open: count(raw.contacts_open),
+            contacts_sticking: count(raw.contacts_sticking),
+            contacts_sliding: count(raw.contacts_sliding),
+            generators: count(raw.generators),
+            facets: count(raw.facets),
+            shift_iterations: count(raw.shift_iterations),
+            islands_by_lemke: count(raw.islands_by_lemke),
         }
     }
 }

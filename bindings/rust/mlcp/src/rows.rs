@@ -1,10 +1,10 @@
 //! Constraint rows on their way in and out.
-use std::mem::MaybeUninit;
-
 use crate::body::Body;
-use crate::error::{Error, Result};
+use crate::bulk::{check_blocks, common_stride, extent};
+use crate::error::Result;
 use crate::numbers::{check_length, int};
-use crate::strided::{Blocks, Layout, Strided};
+use crate::real::Real;
+use crate::strided::{Blocks, Strided};
 
 /// Rows between bodies, added in one call by [`Problem::add_rows`](crate::Problem::add_rows): all or nothing. Arrays stay where they
 /// are, in slices or in the structs of an engine ([`strided!`](crate::strided)), in double or in single precision.
@@ -14,15 +14,15 @@ use crate::strided::{Blocks, Layout, Strided};
 #[derive(Clone, Copy, Debug)]
 pub struct Rows<'a, T: Real = f64> {
     count: usize,
-    body_a: Option<Strided<'a, Body>>,
-    body_b: Option<Strided<'a, Body>>,
-    jacobian_a: Option<Blocks<'a, T>>,
-    jacobian_b: Option<Blocks<'a, T>>,
-    r: Option<Strided<'a, T>>,
-    lo: Option<Strided<'a, T>>,
-    hi: Option<Strided<'a, T>>,
-    compliance: Option<Strided<'a, T>>,
-    key: Option<Strided<'a, u64>>,
+    pub(crate) body_a: Option<Strided<'a, Body>>,
+    pub(crate) body_b: Option<Strided<'a, Body>>,
+    pub(crate) jacobian_a: Option<Blocks<'a, T>>,
+    pub(crate) jacobian_b: Option<Blocks<'a, T>>,
+    pub(crate) r: Option<Strided<'a, T>>,
+    pub(crate) lo: Option<Strided<'a, T>>,
+    pub(crate) hi: Option<Strided<'a, T>>,
+    pub(crate) compliance: Option<Strided<'a, T>>,
+    pub(crate) key: Option<Strided<'a, u64>>,
 }
 
 impl<'a, T: Real> Rows<'a, T> {
@@ -94,129 +94,25 @@ impl<'a, T: Real> Rows<'a, T> {
     /// Everything that the library cannot check, because a C array does not know its length. `dimension`: of a body, 0 for one that
     /// there is not; the library refuses such a row before it reads its block.
     pub(crate) fn check(&self, dimension: impl Fn(Body) -> usize) -> Result<Strides> {
-        let body = common_stride(self.count, [("body_a", self.body_a), ("body_b", self.body_b)])?;
-        let value =
-            common_stride(self.count, [("r", self.r), ("lo", self.lo), ("hi", self.hi), ("compliance", self.compliance)])?;
-        let key = common_stride(self.count, [("key", self.key)])?;
-        check_blocks("jacobian_a", self.jacobian_a, self.body_a, &dimension)?;
-        check_blocks("jacobian_b", self.jacobian_b, self.body_b, &dimension)?;
-        Ok(Strides { body, value, key })
+        let count = self.count;
+        let values = [("r", self.r), ("lo", self.lo), ("hi", self.hi), ("compliance", self.compliance)];
+        let strides = Strides {
+            body: common_stride(count, [("body_a", self.body_a), ("body_b", self.body_b)].map(extent))?,
+            value: common_stride(count, values.map(extent))?,
+            key: common_stride(count, [extent(("key", self.key))])?,
+        };
+        check_blocks(("jacobian_a", "row"), self.jacobian_a, self.body_a, &dimension)?;
+        check_blocks(("jacobian_b", "row"), self.jacobian_b, self.body_b, &dimension)?;
+        Ok(strides)
     }
 }
 
 /// Bytes between the values of a kind; 0: packed.
 pub(crate) struct Strides {
-    body: isize,
-    value: isize,
-    key: isize,
+    pub(crate) body: isize,
+    pub(crate) value: isize,
+    pub(crate) key: isize,
 }
-
-/// The stride of arrays that have to share one, each with `count` values.
-fn common_stride<T, const N: usize>(count: usize, arrays: [(&str, Option<Strided<'_, T>>); N]) -> Result<isize> {
-    let mut common: Option<(&str, usize)> = None;
-    for (name, array) in arrays {
-        let Some(array) = array else { continue };
-        check_length(name, array.len(), count)?;
-        match common {
-            Some((other, stride)) if stride != array.stride() && count > 1 => {
-                let own = array.stride();
-                return Err(Error::Argument(format!("{name} has a stride of {own} bytes, but {other} one of {stride}")));
-            }
-            _ => common = Some((name, array.stride())),
-        }
-    }
-    Ok(common.map_or(0, |(_, stride)| stride as isize)) // no struct is larger than isize
-}
-
-/// No block of `blocks` is shorter than its body's dimension. Without blocks the library refuses any body but the world.
-fn check_blocks<T>(
-    name: &str,
-    blocks: Option<Blocks<'_, T>>,
-    bodies: Option<Strided<'_, Body>>,
-    dimension: impl Fn(Body) -> usize,
-) -> Result<()> {
-    let (Some(blocks), Some(bodies)) = (blocks, bodies) else { return Ok(()) };
-    match blocks.layout() {
-        Layout::Packed { numbers } => check_length(name, numbers, bodies.iter().map(|&body| dimension(body)).sum()),
-        Layout::Strided { len, width, .. } => {
-            check_length(name, len, bodies.len())?;
-            match bodies.iter().enumerate().find(|&(_, &body)| dimension(body) > width) {
-                None => Ok(()),
-                Some((i, &body)) => Err(Error::Range(format!(
-                    "{name} has blocks of {width} numbers, but body {} of row {i} needs {}",
-                    body.id(),
-                    dimension(body)
-                ))),
-            }
-        }
-    }
-}
-
-/// The precision of rows: `f64` or `f32`.
-pub trait Real: sealed::Real {}
-impl Real for f64 {}
-impl Real for f32 {}
-
-pub(crate) mod sealed {
-    use super::{Rows, Strides};
-
-    pub trait Real: Copy + Sized {
-        /// # Safety
-        /// `problem` is a live handle that nothing else uses, and `strides` are what `rows` were checked to have.
-        #[allow(private_interfaces)] // nobody outside can call it
-        unsafe fn add_rows(
-            problem: *mut sys::mlcp_problem,
-            count: i32,
-            rows: &Rows<'_, Self>,
-            strides: Strides,
-            first: &mut i32,
-        ) -> sys::mlcp_status
-        where
-            Self: super::Real;
-    }
-}
-
-macro_rules! real {
-    ($real:ty, $init:ident, $add:ident) => {
-        impl sealed::Real for $real {
-            #[allow(private_interfaces)]
-            unsafe fn add_rows(
-                problem: *mut sys::mlcp_problem,
-                count: i32,
-                rows: &Rows<'_, Self>,
-                strides: Strides,
-                first: &mut i32,
-            ) -> sys::mlcp_status {
-                let mut raw = MaybeUninit::uninit();
-                // SAFETY: the init function fills the struct, every field.
-                let mut raw = unsafe {
-                    sys::$init(raw.as_mut_ptr(), size_of_val(&raw));
-                    raw.assume_init()
-                };
-                // NULL where an array is not given
-                raw.count = count;
-                raw.body_a = rows.body_a.map_or(raw.body_a, |ids| ids.as_ptr().cast());
-                raw.body_b = rows.body_b.map_or(raw.body_b, |ids| ids.as_ptr().cast());
-                raw.jacobian_a = rows.jacobian_a.map_or(raw.jacobian_a, |blocks| blocks.as_ptr());
-                raw.jacobian_b = rows.jacobian_b.map_or(raw.jacobian_b, |blocks| blocks.as_ptr());
-                raw.jacobian_a_stride = rows.jacobian_a.map_or(0, |blocks| blocks.stride());
-                raw.jacobian_b_stride = rows.jacobian_b.map_or(0, |blocks| blocks.stride());
-                raw.r = rows.r.map_or(raw.r, |values| values.as_ptr());
-                raw.lo = rows.lo.map_or(raw.lo, |values| values.as_ptr());
-                raw.hi = rows.hi.map_or(raw.hi, |values| values.as_ptr());
-                raw.compliance = rows.compliance.map_or(raw.compliance, |values| values.as_ptr());
-                raw.key = rows.key.map_or(raw.key, |keys| keys.as_ptr());
-                raw.value_stride = strides.value;
-                raw.body_stride = strides.body;
-                raw.key_stride = strides.key;
-                // SAFETY: as promised by the caller; the arrays are as long as the library reads.
-                unsafe { sys::$add(problem, &raw, first) }
-            }
-        }
-    };
-}
-real!(f64, mlcp_rows_init, mlcp_problem_rows_add);
-real!(f32, mlcp_rows_f32_init, mlcp_problem_rows_add_f32);
 
 /// One row over any velocities, for [`Problem::add_row`](crate::Problem::add_row).
 #[must_use = "a row does nothing until it is added"]

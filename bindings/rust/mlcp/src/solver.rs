@@ -4,6 +4,7 @@ use std::ptr::{NonNull, null, null_mut};
 
 use crate::body::Body;
 use crate::callbacks::Callbacks;
+use crate::contacts::ContactState;
 use crate::error::{Error, Result, check, check_with, text_of};
 use crate::library::check_abi;
 use crate::mask::MaskRef;
@@ -182,6 +183,16 @@ impl Solver {
         Ok(self.lend(sys::mlcp_solver_island_outcomes)?.iter().map(|&outcome| Outcome::from_raw(outcome)))
     }
 
+    /// What each contact did in the last solve, in order of adding.
+    pub fn contact_states(&self) -> Result<impl ExactSizeIterator<Item = ContactState> + '_> {
+        Ok(self.lend(sys::mlcp_solver_contact_states)?.iter().map(|&state| ContactState::from_raw(state)))
+    }
+
+    /// How many generators of each contact's cone were tried, in order of adding; 0 where it has no cone.
+    pub fn contact_facets(&self) -> Result<&[i32]> {
+        self.lend(sys::mlcp_solver_contact_facets)
+    }
+
     /// Why an island is infeasible, `None` for the first one that is. [`Error::State`] when there is no certificate.
     pub fn certificate(&self, island: Option<usize>) -> Result<Certificate<'_>> {
         let island = island.map_or(Ok(-1), |island| int("island", island))?;
@@ -259,7 +270,7 @@ impl Solver {
         self.refused(status)
     }
 
-    pub(crate) fn lend<T>(&self, get: Getter<T>) -> Result<&[T]> {
+    fn lend<T>(&self, get: Getter<T>) -> Result<&[T]> {
         let (mut data, mut length) = (null(), 0);
         // SAFETY: a live handle and places for what is lent until the solver is used again, for which it must not be borrowed.
         unsafe {

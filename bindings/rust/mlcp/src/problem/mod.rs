@@ -1,5 +1,6 @@
 //! Bodies, rows and their numbers.
 mod bodies;
+mod contacts;
 mod read;
 mod rows;
 

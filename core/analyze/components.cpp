@@ -1,0 +1,110 @@
+#include "analyze/components.h"
+
+#include "analyze/union_find.h"
+
+namespace mlcp {
+
+bool Components::covers(const Problem& problem, const Mask* enabled) const {
+  if (!known_ || static_cast<std::int32_t>(fixed_.size()) != problem.n() || static_cast<std::int32_t>(enabled_.size()) != problem.m()) return false;
+  for (std::int32_t i = 0; i < problem.m(); ++i)
+    if (static_cast<bool>(enabled_[i]) != (!enabled || enabled->state[i] != MLCP_ROW_DISABLED)) return false;
+  for (const Body& body : problem.bodies)
+    if (body.dimension > 0 && fixed_[body.offset] != body.prescribed) return false;
+  return pattern_.fits(problem);
+}
+
+bool Components::update(const Problem& problem, const Mask* enabled) {
+  if (covers(problem, enabled)) return false;
+  known_ = false;
+  fixed_.assign(problem.n(), 0);
+  for (const Body& body : problem.bodies)
+    if (body.prescribed) std::fill_n(fixed_.begin() + body.offset, body.dimension, std::uint8_t{1});
+  enabled_.assign(problem.m(), 1);
+  if (enabled)
+    for (std::int32_t i = 0; i < problem.m(); ++i) enabled_[i] = enabled->state[i] != MLCP_ROW_DISABLED;
+  join_all(problem);
+  sort(problem);
+  pattern_.take(problem);
+  return known_ = true;
+}
+
+void Components::join_all(const Problem& problem) {
+  const std::int32_t n = problem.n(), m = problem.m();
+  const SparseView mass = problem.mass_view(), jacobian = problem.jacobian_view(), sigma = problem.compliance_view();
+  start_sets(parent_, n + m);
+  for (const Body& body : problem.bodies) {
+    if (body.prescribed) continue;
+    for (std::int32_t j = body.offset; j < body.offset + body.dimension; ++j) {
+      if (!body.sparse)
+        parent_[j] = body.offset;
+      else
+        for (std::int32_t t = mass.pointers[j]; t < mass.pointers[j + 1]; ++t)
+          if (mass.indices[t] < j) join(parent_, j, mass.indices[t]);
+    }
+  }
+  for (std::int32_t i = 0; i < m; ++i) {
+    if (!enabled_[i]) continue;
+    for (std::int32_t t = jacobian.pointers[i]; t < jacobian.pointers[i + 1]; ++t)
+      if (!fixed_[jacobian.indices[t]]) join(parent_, n + i, jacobian.indices[t]);
+    for (std::int32_t t = sigma.pointers[i]; t < sigma.pointers[i + 1]; ++t)
+      if (enabled_[sigma.indices[t]]) join(parent_, n + i, n + sigma.indices[t]);
+  }
+}
+
+/// Roots are the smallest members, so that a pass over the nodes meets each root first and components are in the order of those.
+void Components::sort(const Problem& problem) {
+  const std::int32_t n = problem.n(), m = problem.m();
+  index_.resize(n + m);  // of a root: its component; −1: a free velocity
+  of_row.assign(m, -1);
+  velocity_pointers.assign(1, 0);
+  row_pointers.assign(1, 0);
+  for (std::int32_t j = 0; j < n; ++j) {
+    if (fixed_[j]) continue;
+    const std::int32_t root = parent_[j] = root_of(parent_, j);
+    index_[root] = root == j ? -1 : 0;
+  }
+  for (std::int32_t i = 0; i < m; ++i) {
+    if (!enabled_[i]) continue;
+    const std::int32_t root = parent_[n + i] = root_of(parent_, n + i);
+    index_[root] = 0;
+  }
+  std::int32_t count = 0;
+  free_velocity.clear();
+  for (std::int32_t node = 0; node < n + m; ++node) {
+    if (node < n ? fixed_[node] : !enabled_[node - n]) continue;
+    if (parent_[node] == node) {
+      // a velocity alone may still have a mass block larger than one entry
+      const bool alone = node < n && index_[node] < 0 && problem.mass.pointers[node + 1] - problem.mass.pointers[node] == 1;
+      index_[node] = alone ? -1 : count++;
+      if (!alone) {
+        velocity_pointers.push_back(0);
+        row_pointers.push_back(0);
+      }
+    }
+    const std::int32_t c = index_[parent_[node]];
+    if (c < 0)
+      free_velocity.push_back(node);
+    else
+      ++(node < n ? velocity_pointers : row_pointers)[c + 1];
+  }
+  for (std::int32_t c = 0; c < count; ++c) {
+    velocity_pointers[c + 1] += velocity_pointers[c];
+    row_pointers[c + 1] += row_pointers[c];
+  }
+  velocities.resize(velocity_pointers[count]);
+  rows.resize(row_pointers[count]);
+  // filled from behind, so that the pointers end where they were to begin
+  for (std::int32_t c = count; c > 0; --c) {
+    velocity_pointers[c] = velocity_pointers[c - 1];
+    row_pointers[c] = row_pointers[c - 1];
+  }
+  for (std::int32_t j = 0; j < n; ++j)
+    if (!fixed_[j] && index_[parent_[j]] >= 0) velocities[velocity_pointers[index_[parent_[j]] + 1]++] = j;
+  for (std::int32_t i = 0; i < m; ++i) {
+    if (!enabled_[i]) continue;
+    of_row[i] = index_[parent_[n + i]];
+    rows[row_pointers[of_row[i] + 1]++] = i;
+  }
+}
+
+}  // namespace mlcp

@@ -1,0 +1,41 @@
+#pragma once
+#include "assemble/mask.h"
+#include "assemble/pattern_copy.h"
+
+namespace mlcp {
+
+/// Connected parts of a problem, from its pattern alone: dynamic velocities and enabled rows that nothing couples to others. What elimination trees
+/// tell of large islands, without an order.
+class Components {
+ public:
+  explicit Components(const Memory& m)
+      : velocity_pointers(m), velocities(m), row_pointers(m), rows(m), free_velocity(m), of_row(m), parent_(m), index_(m), fixed_(m),
+        enabled_(m), pattern_(m) {}
+
+  Array<std::int32_t> velocity_pointers, velocities;  ///< component → velocities, ascending
+  Array<std::int32_t> row_pointers, rows;             ///< component → rows, ascending
+  Array<std::int32_t> free_velocity;                  ///< a diagonal mass that no row touches: in no component
+  Array<std::int32_t> of_row;                         ///< m: component, −1 for disabled rows
+
+  std::int32_t count() const { return static_cast<std::int32_t>(velocity_pointers.size()) - 1; }
+  std::int32_t velocity_count(std::int32_t c) const { return velocity_pointers[c + 1] - velocity_pointers[c]; }
+  std::int32_t row_count(std::int32_t c) const { return row_pointers[c + 1] - row_pointers[c]; }
+
+  /// Finds them, unless those that are there are the problem's.  returns whether it had to.
+  /// cost: nearly O(entries of M, J and Σ); a comparison of them where the pattern is known.
+  bool update(const Problem& problem, const Mask* enabled);
+  void forget() { known_ = false; }
+
+ private:
+  bool covers(const Problem& problem, const Mask* enabled) const;
+  void join_all(const Problem& problem);
+  void sort(const Problem& problem);
+
+  bool known_ = false;
+  Array<std::int32_t> parent_, index_;
+  Array<std::uint8_t> fixed_;    // n: 1 on prescribed velocities
+  Array<std::uint8_t> enabled_;  // m
+  PatternCopy pattern_;          // at the last update
+};
+
+}  // namespace mlcp

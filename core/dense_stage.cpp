@@ -1,0 +1,101 @@
+#include "dense_stage.h"
+
+#include <cmath>
+
+namespace mlcp {
+namespace {
+
+/// What the dense way is for. Beyond, sparse factors touch less, and an order that was found once is worth keeping.
+constexpr std::int32_t most_velocities = 96, most_rows = 96;
+/// Errors above this are refined, and left to the sparse way if that does not help.
+constexpr double refined = 1e-13;
+/// A momentum error up to this is rounding.
+constexpr double settled = 2e-15;
+constexpr int most_refinements = 3;
+/// |w| up to this, relative to the scale of its error: the row holds.
+constexpr double holds = 1e-9;
+
+}  // namespace
+
+bool DenseStage::takes(const SolveInput& input) {
+  const Settings& s = input.settings;
+  if (s.method != MLCP_METHOD_AUTO || s.trace || s.impulses != MLCP_IMPULSES_ANY || s.max_iterations > 0 || s.max_work > 0) return false;
+  knew_ = !components.update(input.problem, input.enabled);
+  prepared_ &= knew_;
+  for (std::int32_t c = 0; c < components.count(); ++c)
+    if (components.velocity_count(c) > most_velocities || components.row_count(c) > most_rows) return false;
+  return true;
+}
+
+bool DenseStage::solve(const SolveInput& input, const Mask* start, Watch& watch, Crew& crew, Measure& measure, Result& result, Errors& errors,
+                       Counts& counts) {
+  const Problem& problem = input.problem;
+  const std::int32_t count = components.count();
+  if (!prepared_) response_.prepare(problem, components);
+  prepared_ = true;
+  counts_.assign(count, Counts{});
+  solved_.assign(count, 0);
+  result.gamma.assign(problem.m(), 0.0);
+  result.mask.state.assign(problem.m(), MLCP_ROW_DISABLED);
+  const auto cost = [&](std::int32_t c) { return 10 + std::int64_t{components.velocity_count(c)} * (components.velocity_count(c) + components.row_count(c)); };
+  crew.run(count, tasks_, false, cost, [&](std::int32_t c) {
+    if (watch.look() == MLCP_SOLVED) solved_[c] = solve_island(input, start, c, result);
+  });
+  for (std::int32_t c = 0; c < count; ++c) {
+    if (!solved_[c]) return false;
+    counts += counts_[c];
+  }
+  for (int round = 0;; ++round) {
+    errors = measure.run(problem, input.enabled, result.v.span(), result.gamma.span());
+    if (errors.largest() <= refined) break;
+    if (round == most_refinements) return false;
+    for (std::int32_t c = 0; c < count; ++c) counts.refinements += refine(c, measure, round > 0, result);
+  }
+  for (std::int32_t c = 0; c < count; ++c) mark_redundant(c, measure, result);
+  return true;
+}
+
+bool DenseStage::solve_island(const SolveInput& input, const Mask* start, std::int32_t c, Result& result) {
+  if (!response_.compute(input.problem, c)) return false;
+  DenseIsland island = response_.island(c);
+  DenseNewton newton(island, zero_slack(input.settings), counts_[c]);
+  newton.start(input.problem, start);
+  if (!newton.solve(start != nullptr)) return false;
+  DenseResponse::velocities(island);
+  for (std::int32_t p = 0; p < island.n; ++p) result.v[island.velocity(p)] = island.x[p];
+  for (std::int32_t i = 0; i < island.m; ++i) {
+    result.gamma[island.row[i]] = island.gamma[i];
+    result.mask.state[island.row[i]] = row_state(island.state[i]);
+  }
+  return true;
+}
+
+/// One step against the residuals that the measurement has found. Once momentum is rounding its residual is left out, as in Refinement: then the
+/// correction is as small as the rows' own residuals.  false: there is nothing to do.
+bool DenseStage::refine(std::int32_t c, const Measure& measure, bool rows_alone, Result& result) {
+  DenseIsland s = response_.island(c);
+  double momentum = 0, rows = 0;
+  for (std::int32_t p = 0; p < s.n; ++p) momentum = std::max(momentum, measure.velocity_error[s.velocity(p)]);
+  for (std::int32_t i = 0; i < s.m; ++i) rows = std::max(rows, measure.error[s.row[i]]);
+  if (std::max(momentum, rows) <= refined) return false;
+  rows_alone |= momentum <= settled;
+  for (std::int32_t p = 0; p < s.n; ++p) s.x[p] = rows_alone ? 0 : -measure.momentum_residual(s.velocity(p));
+  for (std::int32_t t = 0; t < *s.members; ++t) s.x[s.n + t] = -measure.w[s.row[s.member[t]]];
+  DenseResponse::correct(s);
+  for (std::int32_t p = 0; p < s.n; ++p) result.v[s.velocity(p)] += s.x[p];
+  for (std::int32_t t = 0; t < *s.members; ++t) result.gamma[s.row[s.member[t]]] += s.x[s.n + t];
+  return true;
+}
+
+/// As mark_redundant: rows that hold, rest, and have a Schur pivot of at most dependent_pivot · a.
+void DenseStage::mark_redundant(std::int32_t c, const Measure& measure, Result& result) {
+  const DenseIsland s = response_.island(c);
+  for (std::int32_t i = 0; i < s.m; ++i) {
+    const std::int32_t row = s.row[i];
+    if (s.state[i] == ActiveSet::active) continue;
+    if (s.lo[i] == s.hi[i] || !(std::abs(measure.w[row]) <= holds * measure.scale[row])) continue;
+    result.redundant[row] = DenseResponse::schur(s, i) <= dependent_pivot * measure.a[row];
+  }
+}
+
+}  // namespace mlcp

@@ -1,0 +1,38 @@
+#pragma once
+#include "factorize/dense_response.h"
+#include "measure/errors.h"
+#include "report/result.h"
+#include "solve/dense_newton.h"
+#include "stage.h"
+
+namespace mlcp {
+
+/// The short way for problems whose islands are all small (robots, a few bodies): no order, no symbolic factor, everything dense. What it
+/// cannot solve to rounding it leaves to Stage.
+class DenseStage {
+ public:
+  explicit DenseStage(const Memory& m) : components(m), response_(m), counts_(m), solved_(m), tasks_(m) {}
+
+  Components components;
+
+  /// Whether settings and sizes are such that it may be tried; finds the components of the problem if the settings are.
+  bool takes(const SolveInput& input);
+  /// Whether the last takes() knew the pattern.
+  bool knew() const { return knew_; }
+  /// after true: result and errors hold an answer as good as rounding allows; only certificates, keys and outcomes are left to the caller.
+  bool solve(const SolveInput& input, const Mask* start, Watch& watch, Crew& crew, Measure& measure, Result& result, Errors& errors, Counts& counts);
+  std::int64_t entries() const { return response_.entries(); }
+
+ private:
+  bool solve_island(const SolveInput& input, const Mask* start, std::int32_t c, Result& result);
+  bool refine(std::int32_t c, const Measure& measure, bool rows_alone, Result& result);
+  void mark_redundant(std::int32_t c, const Measure& measure, Result& result);
+
+  bool knew_ = false, prepared_ = false;
+  DenseResponse response_;
+  Array<Counts> counts_;        // by component
+  Array<std::uint8_t> solved_;  // likewise
+  Array<std::int32_t> tasks_;   // first component of each task, and the end
+};
+
+}  // namespace mlcp

@@ -1,0 +1,114 @@
+#include "solve/dense_newton.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solve/basis.h"
+
+namespace mlcp {
+namespace {
+
+/// Full steps may go on so often without fewer changes than ever before.
+constexpr int patience = 3;
+/// Sweeps of the guess: it stands when two in turn leave the same rows active.
+constexpr int most_sweeps = 8;
+
+}  // namespace
+
+void DenseNewton::rest(std::int32_t i, ActiveSet::State to) {
+  s_.state[i] = to;
+  s_.gamma[i] = -ActiveSet::resting_x(to, s_.lo[i], s_.hi[i]);
+}
+
+void DenseNewton::start(const Problem& problem, const Mask* mask) {
+  for (std::int32_t i = 0; i < s_.m; ++i) {
+    rest(i, ActiveSet::starting(problem, s_.row[i], mask));
+    if (s_.state[i] == ActiveSet::active) s_.gamma[i] = 0;
+  }
+}
+
+/// Projected Gauss-Seidel on A.
+void DenseNewton::guess() {
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    bool changed = false;
+    for (std::int32_t i = 0; i < s_.m; ++i) {
+      if (s_.response(i, i) == 0) continue;
+      const double w = s_.b[i] + dot(s_.a + static_cast<std::int64_t>(i) * s_.m, s_.gamma, s_.m);
+      const double gamma = s_.gamma[i] - w / s_.response(i, i);
+      const auto to = gamma <= s_.lo[i] ? ActiveSet::at_lower : gamma >= s_.hi[i] ? ActiveSet::at_upper : ActiveSet::active;
+      changed |= s_.state[i] != to;
+      s_.state[i] = to;
+      s_.gamma[i] = std::clamp(gamma, s_.lo[i], s_.hi[i]);
+    }
+    counts_.work += static_cast<std::int64_t>(s_.m) * s_.m;
+    if (!changed) break;
+  }
+}
+
+/// Rows whose state does not fit change it.  returns how many.
+std::int32_t DenseNewton::flip() {
+  std::int32_t flips = 0;
+  // slacks first: they are those of the impulses as they are
+  for (std::int32_t i = 0; i < s_.m; ++i) {
+    if (s_.state[i] == ActiveSet::active) continue;
+    const double* a = s_.a + static_cast<std::int64_t>(i) * s_.m;
+    double w = s_.b[i], size = s_.size[i] + std::abs(w);
+    for (std::int32_t j = 0; j < s_.m; ++j) {
+      w += a[j] * s_.gamma[j];
+      size += std::abs(a[j] * s_.gamma[j]);
+    }
+    // what no impulse can change is for the measurement to judge
+    const double zero = s_.lo[i] == s_.hi[i] || s_.response(i, i) == 0 ? infinity : zero_ * size;
+    const bool wrong = s_.state[i] == ActiveSet::at_lower ? w < -zero : s_.state[i] == ActiveSet::at_upper ? w > zero : std::abs(w) > zero;
+    s_.x[i] = wrong;
+  }
+  for (std::int32_t i = 0; i < s_.m; ++i) {
+    if (s_.state[i] == ActiveSet::active) {
+      if (s_.gamma[i] >= s_.lo[i] && s_.gamma[i] <= s_.hi[i]) continue;
+      rest(i, s_.gamma[i] < s_.lo[i] ? ActiveSet::at_lower : ActiveSet::at_upper);
+    } else {
+      if (s_.x[i] == 0) continue;
+      s_.state[i] = ActiveSet::active;
+    }
+    ++flips;
+  }
+  return flips;
+}
+
+bool DenseNewton::solve(bool warm) {
+  if (!warm) guess();
+  std::int32_t fewest = s_.m + 1;
+  for (int left = patience;;) {
+    *s_.members = 0;
+    for (std::int32_t i = 0; i < s_.m; ++i) {
+      if (s_.state[i] != ActiveSet::active) continue;
+      s_.gamma[i] = 0;
+      s_.member[(*s_.members)++] = i;
+    }
+    const std::int32_t wanted = *s_.members;
+    DenseResponse::factor_active(s_, dependent_pivot);
+    if (*s_.members < wanted) {
+      for (std::int32_t i = 0, t = 0; i < s_.m; ++i) {
+        if (s_.state[i] != ActiveSet::active) continue;
+        if (t < *s_.members && s_.member[t] == i)
+          ++t;
+        else
+          rest(i, ActiveSet::resting(s_.lo[i], s_.hi[i]));
+      }
+    }
+    DenseResponse::solve_active(s_);
+    ++counts_.pivots;
+    ++counts_.factorizations;
+    counts_.work += static_cast<std::int64_t>(s_.m) * s_.m;
+    const std::int32_t flips = flip();
+    if (flips == 0) return true;
+    if (flips < fewest) {
+      fewest = flips;
+      left = patience;
+    } else if (--left < 0) {
+      return false;
+    }
+  }
+}
+
+}  // namespace mlcp

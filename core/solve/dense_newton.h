@@ -1,0 +1,31 @@
+#pragma once
+#include "factorize/dense_response.h"
+#include "solve/active_set.h"
+#include "solve/limits.h"
+
+namespace mlcp {
+
+/// Newton's method on one small island: full primal-dual active-set steps on the dense A (Hintermüller, Ito & Kunisch 2002), each a factorization of
+/// A on the active rows, after a few Gauss-Seidel sweeps where there is no start. Rows that depend on active ones rest. It is quick or
+/// gives up: cycles, wrong pivots and infeasible islands are for the methods on the sparse factor.
+class DenseNewton {
+ public:
+  /// zero: slacks up to this, relative to their terms, count as zero.
+  DenseNewton(DenseIsland& island, double zero, Counts& counts) : s_(island), zero_(zero), counts_(counts) {}
+
+  /// Puts every row where the start has it. NULL: rows that may push both ways are active.
+  void start(const Problem& problem, const Mask* mask);
+  /// before: start(). after: the active set, its factor and its impulses.  false: given up.
+  bool solve(bool warm);
+
+ private:
+  void guess();
+  std::int32_t flip();
+  void rest(std::int32_t i, ActiveSet::State to);
+
+  DenseIsland& s_;
+  const double zero_;
+  Counts& counts_;
+};
+
+}  // namespace mlcp

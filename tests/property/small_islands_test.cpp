@@ -1,0 +1,68 @@
+// Problems of small islands alone, which auto solves without a sparse factor: the same answers as the simplex.
+#include <gtest/gtest.h>
+
+#include "dense_stage.h"
+#include "support/random_problem.h"
+#include "support/solution.h"
+
+namespace support {
+namespace {
+
+mlcp::Settings automatic() {
+  mlcp::Settings s = settings();
+  s.method = MLCP_METHOD_AUTO;
+  return s;
+}
+
+TEST(SmallIslands, HaveTheVelocitiesOfTheSimplex) {
+  int without_factor = 0, solved = 0;
+  for (int seed = 0; seed < rounds(3000); ++seed) {
+    Random random(seed);
+    const mlcp::Problem p = random_problem(random, {.bodies_most = 5, .rows_most = 10, .integers = seed % 3 == 0, .feasible = 0.95});
+    const mlcp::Mask enabled = enabled_mask(random, p.m(), 0.1);
+    const Dense d = dense(p, &enabled);
+    const Solution expected = solve(p, settings(), &enabled);
+    mlcp::Solver solver(automatic(), mlcp::Memory());
+    const Solution s = solve(solver, p, &enabled);
+    ASSERT_EQ(s.report.outcome, expected.report.outcome) << "seed " << seed;
+    if (s.report.outcome != MLCP_SOLVED) continue;
+    ASSERT_EQ(fault(d, s), "") << "seed " << seed;
+    ASSERT_LT(difference(s.v, expected.v), 1e-9) << "seed " << seed;
+    ASSERT_EQ(s.report.islands, expected.report.islands) << "seed " << seed;
+    ++solved;
+    without_factor += solver.ordering().empty();
+  }
+  EXPECT_GT(without_factor, solved * 2 / 3);
+}
+
+TEST(SmallIslands, StartsAndThreadsLeadToTheSamePlace) {
+  for (int seed = 0; seed < rounds(500); ++seed) {
+    Random random(seed);
+    const mlcp::Problem p = random_problem(random, {.bodies_least = 6, .bodies_most = 12, .rows_most = 16, .boxed_most = 6, .feasible = 1});
+    const Solution cold = solve(p, automatic());
+    if (cold.report.outcome != MLCP_SOLVED) continue;
+    const mlcp::Mask anywhere = random_mask(random, p.m());
+    const Solution warm = solve(p, automatic(), nullptr, &anywhere);
+    ASSERT_EQ(warm.report.outcome, MLCP_SOLVED) << "seed " << seed;
+    ASSERT_LT(difference(warm.v, cold.v), 1e-9) << "seed " << seed;
+    mlcp::Settings parallel = automatic();
+    parallel.num_threads = 3;
+    const Solution many = solve(p, parallel);
+    ASSERT_EQ(many.v, cold.v) << "seed " << seed;
+    ASSERT_EQ(many.gamma, cold.gamma) << "seed " << seed;
+  }
+}
+
+TEST(SmallIslands, ASecondSolveOfThePatternFindsNothingAnew) {
+  Random random(5);
+  mlcp::Problem p = random_chain(random, 6, 3, 1);
+  mlcp::Solver solver(automatic(), mlcp::Memory());
+  EXPECT_TRUE(solve(solver, p).report.analyzed);
+  p.momentum[2] += 0.5;
+  const Solution again = solve(solver, p);
+  EXPECT_FALSE(again.report.analyzed);
+  EXPECT_EQ(again.v, solve(p, automatic()).v);
+}
+
+}  // namespace
+}  // namespace support

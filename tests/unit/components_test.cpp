@@ -1,0 +1,78 @@
+#include "analyze/components.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "support/random_problem.h"
+#include "support/solution.h"
+
+namespace support {
+namespace {
+
+template <class T>
+std::vector<T> list(const mlcp::Array<T>& a) {
+  return {a.begin(), a.end()};
+}
+
+/// Body 0 alone, 1 and 2 joined by row 0, body 3 prescribed and touched by row 1 of body 4; row 2 is empty.
+mlcp::Problem five_bodies() {
+  mlcp::Problem p = empty_problem();
+  for (int i = 0; i < 5; ++i) add_body(p, 1, 1);
+  prescribe(p, 3, {1});
+  add_row(p, {{1, 1}, {2, -1}});
+  add_row(p, {{3, 1}, {4, -1}});
+  add_row(p, {});
+  return p;
+}
+
+TEST(Components, PrescribedVelocitiesJoinNothingAndFreeOnesAreInNone) {
+  mlcp::Components c{mlcp::Memory()};
+  EXPECT_TRUE(c.update(five_bodies(), nullptr));
+  ASSERT_EQ(c.count(), 3);
+  EXPECT_EQ(list(c.free_velocity), (std::vector<std::int32_t>{0}));
+  EXPECT_EQ(list(c.velocities), (std::vector<std::int32_t>{1, 2, 4}));
+  EXPECT_EQ(list(c.velocity_pointers), (std::vector<std::int32_t>{0, 2, 3, 3}));
+  EXPECT_EQ(list(c.rows), (std::vector<std::int32_t>{0, 1, 2}));
+  EXPECT_EQ(list(c.row_pointers), (std::vector<std::int32_t>{0, 1, 2, 3}));
+  EXPECT_EQ(list(c.of_row), (std::vector<std::int32_t>{0, 1, 2}));
+}
+
+TEST(Components, AreFoundAgainOnlyWhenThePatternHasChanged) {
+  mlcp::Problem p = five_bodies();
+  mlcp::Components c{mlcp::Memory()};
+  EXPECT_TRUE(c.update(p, nullptr));
+  p.mass.values[0] = 7;
+  p.momentum[1] = 3;
+  EXPECT_FALSE(c.update(p, nullptr));
+  const mlcp::Mask all = mask_of({MLCP_ROW_ACTIVE, MLCP_ROW_AT_LOWER, MLCP_ROW_ACTIVE}), one = mask_of({MLCP_ROW_DISABLED, MLCP_ROW_ACTIVE, MLCP_ROW_DISABLED});
+  EXPECT_FALSE(c.update(p, &all));
+  EXPECT_TRUE(c.update(p, &one));
+  EXPECT_EQ(c.count(), 1);
+  EXPECT_EQ(list(c.free_velocity), (std::vector<std::int32_t>{0, 1, 2}));
+  EXPECT_EQ(list(c.of_row), (std::vector<std::int32_t>{-1, 0, -1}));
+  prescribe(p, 4, {0});
+  EXPECT_TRUE(c.update(p, &one));
+  EXPECT_EQ(c.velocities.size(), 0u);
+  add_row(p, {{0, 1}});
+  EXPECT_TRUE(c.update(p, nullptr));
+}
+
+TEST(Components, AreTheIslandsOfTheSparseFactor) {
+  for (int seed = 0; seed < 200; ++seed) {
+    Random random(seed);
+    const mlcp::Problem p = random_problem(random, {.bodies_most = 8, .rows_most = 10});
+    const mlcp::Mask enabled = enabled_mask(random, p.m(), 0.2);
+    mlcp::Components c{mlcp::Memory()};
+    c.update(p, &enabled);
+    const Solution s = solve(p, settings(), &enabled);
+    ASSERT_EQ(c.count(), static_cast<int>(s.island_outcome.size())) << seed;
+    for (int i = 0; i < p.m(); ++i) {
+      ASSERT_EQ(c.of_row[i] < 0, s.row_island[i] < 0) << seed;
+      for (int j = 0; j < i; ++j) ASSERT_EQ(c.of_row[i] == c.of_row[j], s.row_island[i] == s.row_island[j]) << seed;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace support
