@@ -17,6 +17,7 @@ class BottleLine : public RigidScene {
   /// How often a bottle has left the machine, in order of bottles.
   std::span<const std::int32_t> rounds() const { return rounds_; }
 
+  bool driven() const override { return true; }
   void draw(Drawing& to) const override;
 
  protected:

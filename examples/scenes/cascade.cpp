@@ -17,10 +17,10 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double radius = 0.05, largest = 1.15 * radius;  // m
 constexpr double pill_half_length = 0.035;
 // contacts are listed when their gap is below margin + horizon · the speed at which the bodies may meet
-constexpr double margin = 0.002, horizon = 1.5 * default_step;
+constexpr double margin = 0.005, horizon = 1.5 * default_step, fastest = 6;  // m, s, m/s
 constexpr double half_depth = 0.16;   // between the panes
 constexpr double half_width = 0.75;   // of the bin
-constexpr Material rock = {.friction = 0.35, .restitution = 0.2};
+constexpr Material rock = {.friction = 0.2, .restitution = 0.2};
 constexpr Material pane = {.friction = 0.05};
 
 /// A tray from its upper end to its lower end, seen from the front.
@@ -57,7 +57,7 @@ struct Cascade::Pieces {
       const bool pill = i % 3 == 2;
       const double size = (pill ? 0.75 : 1) * random.uniform(0.85, 1.15) * radius;
       const std::int32_t column = i % across, row = i / across % deep, layer = i / (across * deep);
-      Frame frame = {{-half_width + largest + 0.02 + cell * column, (row - 0.5) * cell, 2.55 + 1.25 * cell * layer}};
+      Frame frame = {{-half_width + largest + 0.02 + cell * column, (row - 0.5) * cell, 2.50 + 1.05 * cell * layer}};
       for (double& coordinate : frame.origin) coordinate += random.uniform(-0.004, 0.004);
       if (pill) frame.rotation = Rotation::about(unit({1, random.uniform(-0.3, 0.3), 0}), random.uniform(-0.6, 0.6));
       shapes.push_back({pill ? pill_half_length : 0, size});
@@ -93,7 +93,7 @@ void Cascade::add_contacts(ContactList& contacts) const {
       for (const Tray& tray : trays) near(MLCP_WORLD, body, contact(tray.box(), tray.frame(), end, centre), feature += 3, rock);
     }
   }
-  for (const auto& [a, b] : near_pairs(centres, 2 * (largest + pill_half_length)))
+  for (const auto& [a, b] : near_pairs(centres, 2 * (largest + pill_half_length) + horizon * fastest))
     near(a, b, contact(shape(a), frame(a), shape(b), frame(b)), 0, rock);
 }
 

@@ -11,6 +11,7 @@
 #include "rope.h"
 #include "tower.h"
 #include "wall.h"
+#include "wall_of_boxes.h"
 
 namespace scenes {
 namespace {
@@ -19,14 +20,15 @@ using Made = std::unique_ptr<Scene>;
 
 constexpr Exhibit exhibits[] = {
     {"gripper", "fingers", 8, {160, 2}, [](std::int32_t size, unsigned seed) -> Made { return std::make_unique<Gripper>(size, seed); }},
-    {"cascade", "bodies", 100, {240, 3}, [](std::int32_t size, unsigned seed) -> Made { return std::make_unique<Cascade>(size, seed); }},
-    {"bottles", "bottles", 24, {800, 6, 320}, [](std::int32_t size, unsigned seed) -> Made { return std::make_unique<BottleLine>(size, seed); }},
+    {"cascade", "bodies", 100, {360, 4}, [](std::int32_t size, unsigned seed) -> Made { return std::make_unique<Cascade>(size, seed); }},
+    {"bottles", "bottles", 24, {800, 8, 320}, [](std::int32_t size, unsigned seed) -> Made { return std::make_unique<BottleLine>(size, seed); }},
     {"pile", "spheres", 100, {60}, [](std::int32_t size, unsigned seed) -> Made { return std::make_unique<Pile>(size, seed); }},
     {"chain", "links", 30, {60}, [](std::int32_t size, unsigned seed) -> Made { return std::make_unique<Chain>(size, true, 1.0, seed); }},
     {"rope", "links", 60, {60}, [](std::int32_t size, unsigned seed) -> Made { return std::make_unique<Rope>(size, seed); }},
     {"tower", "boxes", 10, {60}, [](std::int32_t size, unsigned) -> Made { return Made(new BoxStack(tower_scene(size))); }},
     {"wall", "bricks a course, and courses", 8, {60},
      [](std::int32_t size, unsigned) -> Made { return Made(new BoxStack(wall_scene(size, size))); }},
+    {"wall_of_boxes", "boxes a course, and courses", 5, {120, 2}, [](std::int32_t size, unsigned) -> Made { return std::make_unique<WallOfBoxes>(size); }},
 };
 
 }  // namespace

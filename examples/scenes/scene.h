@@ -40,6 +40,8 @@ class Scene {
   Violation violation() const;
   /// Kinetic and potential, J.
   double energy() const;
+  /// Whether something does work on the bodies: a motor, a belt, a hand that moves a body.
+  virtual bool driven() const { return false; }
 
   /// Adds what there is to see at the present positions, and for each row that prepare() would make now where it acts.
   virtual void draw(Drawing& to) const = 0;

@@ -11,3 +11,4 @@
 #include "rope.h"
 #include "tower.h"
 #include "wall.h"
+#include "wall_of_boxes.h"

@@ -68,6 +68,8 @@ def animate(steps: Sequence[Step], path: Path, seconds: float, *, forces: bool, 
     strongest = max((float(np.max(np.abs(step.forces), initial=0.0)) for step in steps), default=0.0)
     axes = plot.scene(steps[0].drawing)
     figure = plt.gcf()
+    for step in steps[1::max(1, len(steps) // 4)]:
+        plot.scene(step.drawing, axes=axes)  # room for what comes later
     extent = max(axes.dataLim.width, axes.dataLim.height)
     limits = axes.get_xlim(), axes.get_ylim()
 
