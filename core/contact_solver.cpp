@@ -190,7 +190,10 @@ void ContactSolver::State::solve_with(const Problem& problem, const Mask* mask, 
   while (true) {
     // the first solve always takes place, if only to be stopped: it leaves a point
     if (shifts > 0 && (stopped = spend(total, since(begin))) != MLCP_SOLVED) break;
-    solver.solve(rows.inner, &rows.enabled, &rows.start, one);
+    if (shifts == 0)
+      solver.solve(rows.inner, &rows.enabled, &rows.start, one);
+    else
+      solver.solve_again(rows.inner, &rows.enabled, rows.start, one);
     accumulate(one, total);
     const Result& inner = solver.result();
     if (shifts++ == 0) slip.group(problem, generators, rows, inner.row_island.span());

@@ -47,14 +47,19 @@ struct Solver::State {
   Array<double> kept;  ///< v, while a canonical answer is tried
   Errors errors;
   std::int32_t indefinite = -1;  ///< the velocity whose pivot is not positive
+  bool large = false;            ///< `main` has solved the last problem, and its factors stand
 
   State(const Settings& s, const Memory& m)
       : memory(m), settings(s), dense(m), main(m), exact(m), pool(m), measure(m), result(m), imposed(m), given_up(m), kept(m) {}
 
   bool analyze(const Problem& problem, const Mask* enabled, const Poll& poll = {});
+  void clear_findings();
   void clear_result(const Problem& problem);
+  void solve(const SolveInput& input, const Mask* start, bool again, mlcp_report& report);
   bool solve_small(const SolveInput& input, const Mask* start, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts);
   void solve_large(const SolveInput& input, const Mask* start, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts);
+  void solve_large_again(const SolveInput& input, const Mask& start, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts);
+  void take_answer(const SolveInput& input, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts);
   void find_row_islands(const SolveInput& input);
   void solve_free_velocities(const Problem& problem, const Array<std::int32_t>& free);
   void read_ends(const Stage& stage, const Problem& problem, bool only_rows, mlcp_report& report, Counts& counts);
@@ -262,14 +267,19 @@ void Solver::State::fill(const Problem& problem, mlcp_report& report, const Coun
   report.refactorized_for_drift = counts.drifts;
 }
 
-void Solver::State::clear_result(const Problem& problem) {
+/// What a solve tells beside v, γ and redundancy.
+void Solver::State::clear_findings() {
   indefinite = -1;
-  result.v.assign(problem.n(), 0.0);
-  result.redundant.assign(problem.m(), 0);
   result.trace.clear();
   result.certificates.clear();
   result.certificate_row.clear();
   result.certificate_y.clear();
+}
+
+void Solver::State::clear_result(const Problem& problem) {
+  clear_findings();
+  result.v.assign(problem.n(), 0.0);
+  result.redundant.assign(problem.m(), 0);
 }
 
 /// Where every island is small.  false: it is not, or it could not be solved that way.
@@ -312,46 +322,75 @@ void Solver::State::solve_large(const SolveInput& input, const Mask* start, Watc
   }
   report.seconds_analyze = report.analyzed ? watch.seconds() - before : 0;
   clear_result(problem);
-  result.island_outcome.assign(main.analysis.symbolic.islands.size(), MLCP_SOLVED);
   find_row_islands(input);
   main.load(input, start);
   main.solve(input, watch, crew, start != nullptr, result);
-  read_ends(main, problem, false, report, counts);
-  solve_free_velocities(problem, main.analysis.ordering.free_velocity);
+  take_answer(input, watch, crew, report, counts);
+  large = true;
+}
+
+void Solver::State::solve_large_again(const SolveInput& input, const Mask& start, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts) {
+  report.analyzed = false;
+  report.seconds_analyze = 0;
+  clear_findings();
+  main.solve_again(input, watch, crew, start, result);
+  take_answer(input, watch, crew, report, counts);
+}
+
+/// From the stage to the result, and its errors.
+void Solver::State::take_answer(const SolveInput& input, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts) {
+  result.island_outcome.assign(main.analysis.symbolic.islands.size(), MLCP_SOLVED);
+  read_ends(main, input.problem, false, report, counts);
+  solve_free_velocities(input.problem, main.analysis.ordering.free_velocity);
   collect(input);
   rescue(input, watch, crew, report, counts);
   judge(input);
   report.factor_entries = main.analysis.symbolic.entries();
 }
 
-void Solver::solve(const Problem& problem, const Mask* enabled, const Mask* start, mlcp_report& report) {
-  State& s = *state_;
-  check_mask(enabled, problem, "enabled");
-  check_mask(start, problem, "start");
-  s.result.valid = false;
-  s.pool.resize(s.settings.parallel_for ? 1 : s.settings.num_threads > 0 ? s.settings.num_threads : static_cast<std::int32_t>(std::max(1u, std::thread::hardware_concurrency())));
-  Watch watch(s.settings);
-  Crew crew(watch, s.pool);
-  const SolveInput input{problem, enabled, s.settings};
+/// again: the numbers of rows alone have changed since the last call.
+void Solver::State::solve(const SolveInput& input, const Mask* start, bool again, mlcp_report& report) {
+  const Problem& problem = input.problem;
+  result.valid = false;
+  Watch watch(settings);
+  Crew crew(watch, pool);
   Counts counts;
   report.fallbacks = 0;
   report.method = -1;
-  const bool small = s.solve_small(input, start, watch, crew, report, counts);
-  if (!small) s.solve_large(input, start, watch, crew, report, counts);
-  const double after_solve = watch.seconds();
-  if (s.settings.canonical) {
-    s.make_canonical(input, watch);
-    small ? s.look_at_result(input) : s.judge(input);
+  bool small = false;
+  if (again && large) {
+    solve_large_again(input, *start, watch, crew, report, counts);
+  } else {
+    large = false;
+    small = solve_small(input, start, watch, crew, report, counts);
+    if (!small) solve_large(input, start, watch, crew, report, counts);
   }
-  s.result.mask.key.assign(problem.key.span());
-  s.result.mask.impulse.assign(s.result.gamma.span());
-  s.fill(problem, report, counts);
-  if (report.outcome == MLCP_ITERATION_LIMIT && s.result.island_outcome.empty() && watch.stopped() != MLCP_SOLVED) report.outcome = watch.stopped();
+  const double after_solve = watch.seconds();
+  if (settings.canonical) {
+    make_canonical(input, watch);
+    small ? look_at_result(input) : judge(input);
+  }
+  result.mask.key.assign(problem.key.span());
+  result.mask.impulse.assign(result.gamma.span());
+  fill(problem, report, counts);
+  if (report.outcome == MLCP_ITERATION_LIMIT && result.island_outcome.empty() && watch.stopped() != MLCP_SOLVED) report.outcome = watch.stopped();
   report.warm = start != nullptr;
   report.seconds_solve = after_solve - report.seconds_analyze - counts.seconds_factorize;
   report.seconds = watch.seconds();
   report.seconds_report = report.seconds - after_solve;
-  s.result.valid = true;
+  result.valid = true;
+}
+
+void Solver::solve(const Problem& problem, const Mask* enabled, const Mask* start, mlcp_report& report) {
+  State& s = *state_;
+  check_mask(enabled, problem, "enabled");
+  check_mask(start, problem, "start");
+  s.pool.resize(s.settings.parallel_for ? 1 : s.settings.num_threads > 0 ? s.settings.num_threads : static_cast<std::int32_t>(std::max(1u, std::thread::hardware_concurrency())));
+  s.solve({problem, enabled, s.settings}, start, false, report);
+}
+
+void Solver::solve_again(const Problem& problem, const Mask* enabled, const Mask& start, mlcp_report& report) {
+  state_->solve({problem, enabled, state_->settings}, &start, true, report);
 }
 
 /// The order is kept, so that the next solve gives the same bits as without.
@@ -361,6 +400,7 @@ void Solver::trim() {
   s.dense = DenseStage(s.memory);
   for (Stage* stage : {&s.main, &s.exact}) stage->renew(s.memory);
   s.measure = Measure(s.memory);
+  s.large = false;
 }
 
 }  // namespace mlcp

@@ -26,6 +26,9 @@ class Solver {
   void analyze(const Problem& problem, const Mask* enabled);
   /// report.struct_size is left alone, every other field is written.
   void solve(const Problem& problem, const Mask* enabled, const Mask* start, mlcp_report& report);
+  /// The same after numbers of rows alone have changed since the last solve: r, bounds, entries of J and Σ in their pattern. M, k and what is
+  /// enabled are what they were. Islands whose rows are all as they were keep their answer, the others their factor.
+  void solve_again(const Problem& problem, const Mask* enabled, const Mask& start, mlcp_report& report);
   const Result& result() const;
 
   /// The last analysis; without nodes before the first one.

@@ -22,6 +22,31 @@ void Stage::solve(const SolveInput& input, Watch& watch, Crew& crew, bool warm, 
   });
 }
 
+void Stage::solve_again(const SolveInput& input, Watch& watch, Crew& crew, const Mask& start, Result& result) {
+  const auto& islands = analysis.symbolic.islands;
+  const std::int32_t n = input.problem.n();
+  check_.prepare(input.problem);
+  basis.factor.ask(watch.poll());
+  changed_.resize(islands.size());
+  epsilon_.resize(islands.size());
+  for (std::size_t s = 0; s < islands.size(); ++s) epsilon_[s] = ends[s].kept ? ends[s].epsilon : -1;
+  Counts toggled;
+  basis.reload(input.problem, changed_.span(), epsilon_.span(), toggled);
+  Array<mlcp_pivot>* trace = input.settings.trace ? &result.trace : nullptr;
+  const auto cost = [&](std::int32_t s) {
+    return changed_[s] ? 10 + analysis.symbolic.pointers[islands[s].last] - analysis.symbolic.pointers[islands[s].first] : std::int64_t(1);
+  };
+  crew.run(static_cast<std::int32_t>(islands.size()), tasks_, trace != nullptr, cost, [&](std::int32_t s) {
+    ends[s].counts = {};
+    if (!changed_[s]) return;
+    for (std::int32_t o = islands[s].first_row; o < islands[s].last_row; ++o) result.redundant[analysis.pattern.node[basis.position(o)] - n] = 0;
+    ends[s].kept = epsilon_[s] >= 0;
+    solve_island_again(input, basis, check_, watch, s, start, trace, ends[s]);
+    finish_island(input, basis, watch, s, result.redundant.data(), ends[s]);
+  });
+  if (!ends.empty()) ends[0].counts += toggled;
+}
+
 bool Stage::settle(Watch& watch) {
   basis.factor.ask(watch.poll());
   bool good = true;

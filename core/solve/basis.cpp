@@ -45,6 +45,43 @@ void Basis::prepare(const Problem& problem, const Analysis& analysis, const Sett
   toggled_.resize(pattern->size());
 }
 
+/// Entries of row o, of J and Σ, are not what they were.
+bool Basis::row_moves(const Problem& problem, std::int32_t o) const {
+  const std::int32_t p = position(o), s = pattern->diagonal_source[p];
+  if (values.diagonal[p] != (s < 0 ? 0.0 : -problem.compliance.values[s])) return true;
+  for (std::int32_t t = pattern->row_pointers[o]; t < pattern->row_pointers[o + 1]; ++t) {
+    const std::int32_t e = pattern->row_source[t];
+    if (values.row[t] != (pattern->is_row(pattern->row_columns[t]) ? -problem.compliance.values[e] : problem.jacobian.values[e])) return true;
+  }
+  return false;
+}
+
+void Basis::reload(const Problem& problem, std::span<std::uint8_t> changed, std::span<double> epsilon, Counts& counts) {
+  const auto& islands = factor.symbolic().islands;
+  for (std::size_t s = 0; s < islands.size(); ++s) {
+    changed[s] = 0;
+    for (std::int32_t o = islands[s].first_row; o < islands[s].last_row; ++o) {
+      if (!row_moves(problem, o)) continue;
+      changed[s] = 1;
+      if (epsilon[s] < 0 || !factor.in(position(o))) continue;
+      rest(o, ActiveSet::resting(values.lo[o], values.hi[o]));
+      if (factor.remove(position(o), counts.work) != FactorStatus::ok) epsilon[s] = -1;
+      count_toggle(islands[s], counts);
+    }
+  }
+  // b, bounds: those of before stand in scratch of the methods
+  std::copy(values.b.begin(), values.b.end(), work.rhs.begin());
+  std::copy(values.lo.begin(), values.lo.end(), work.slack.begin());
+  std::copy(values.hi.begin(), values.hi.end(), work.slope.begin());
+  values.load(problem, *pattern);
+  for (std::size_t s = 0; s < islands.size(); ++s) {
+    const Island& island = islands[s];
+    for (std::int32_t o = island.first_row; o < island.last_row && !changed[s]; ++o)
+      changed[s] = values.b[position(o)] != work.rhs[position(o)] || values.lo[o] != work.slack[o] || values.hi[o] != work.slope[o];
+    if (epsilon[s] > 0) values.regularise(*pattern, island, epsilon[s], 0);
+  }
+}
+
 void Basis::rest(std::int32_t o, ActiveSet::State to) {
   set.state[o] = to;
   set.x[position(o)] = ActiveSet::resting_x(to, values.lo[o], values.hi[o]);

@@ -1,4 +1,6 @@
 #pragma once
+#include <span>
+
 #include "factorize/factor.h"
 #include "factorize/mass_response.h"
 #include "factorize/refinement.h"
@@ -21,6 +23,12 @@ class Basis {
   explicit Basis(const Memory& m) : values(m), set(m), factor(m), refinement(m), response(m), work(m), toggled_(m), factor_work_(m) {}
 
   void prepare(const Problem& problem, const Analysis& analysis, const Settings& settings);
+
+  /// New numbers of rows in the pattern, with M and k, of the last prepare(). Rows in a factor whose entries have changed leave it first, so that the
+  /// factor stays true where it was made for `epsilon` (by island; < 0: not kept).
+  /// after: changed[s] tells whether island s has a row that is not what it was; epsilon[s] < 0 where there is no factor any more.
+  /// cost: entries of M, J and Σ, and the toggles.
+  void reload(const Problem& problem, std::span<std::uint8_t> changed, std::span<double> epsilon, Counts& counts);
 
   /// Factors the active rows of an island afresh. Rows that depend on others (pivot ≤ drop · a) go to rest.
   /// false: a velocity's pivot is not positive, see Factor::failed_position.
@@ -66,6 +74,7 @@ class Basis {
   Workspace work;
 
  private:
+  bool row_moves(const Problem& problem, std::int32_t o) const;
   std::int32_t violations(const Island& island) const;
   bool still(const Island& island, bool widely);
   void count_toggle(const Island& island, Counts& counts);

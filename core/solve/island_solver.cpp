@@ -22,6 +22,29 @@ class Run {
         limits_(watch, index, static_cast<std::int32_t>(basis.factor.symbolic().islands.size()), 50 * (static_cast<std::int64_t>(rows_) + 10)) {}
 
   void solve(bool warm, Array<mlcp_pivot>* trace) {
+    go(warm, trace);
+    end_.kept = end_.outcome == MLCP_SOLVED && !end_.crowded && end_.method != MLCP_METHOD_PGS && end_.epsilon <= sharp_epsilon && !semidefinite_ &&
+                input_.settings.impulses != MLCP_IMPULSES_LEAST_NORM && input_.settings.method != MLCP_METHOD_SIMPLEX;
+  }
+
+  /// From the factor that is there. before: Basis::reload.
+  void solve_again(const Mask& start, double epsilon, bool kept, Array<mlcp_pivot>* trace) {
+    const auto flips = ask(start, kept);
+    if (kept) {
+      Newton newton(basis_, limits_, end_.counts);
+      end_.method = MLCP_METHOD_NEWTON;
+      end_.epsilon = epsilon;
+      end_.outcome = newton.resume(island_, flips, epsilon);
+      end_.kept = end_.outcome == MLCP_SOLVED;
+      if (end_.outcome != MLCP_ITERATION_LIMIT) return;
+      limits_.restart(end_.counts);
+      ask(start, false);
+    }
+    solve(true, trace);
+  }
+
+ private:
+  void go(bool warm, Array<mlcp_pivot>* trace) {
     const mlcp_method method = input_.settings.method;
     if (!island_.crowded && (method == MLCP_METHOD_SIMPLEX || rows_ == 0 || (method == MLCP_METHOD_AUTO && rows_ <= few_rows))) {
       pivot(trace);
@@ -39,7 +62,26 @@ class Run {
     pivot(trace);
   }
 
- private:
+  /// Puts impulses where `start` has them, and rows too, unless a factor is to follow them: then the changes that are left to make.
+  std::span<const Flip> ask(const Mask& start, bool kept) {
+    ActiveSet& set = basis_.set;
+    Flip* flips = basis_.work.flips.data() + island_.first_row;
+    std::size_t count = 0;
+    for (std::int32_t o = island_.first_row; o < island_.last_row; ++o) {
+      const std::int32_t p = basis_.position(o), i = basis_.pattern->node[p] - input_.problem.n();
+      const ActiveSet::State to = set.state[o] == ActiveSet::disabled ? ActiveSet::disabled : ActiveSet::starting(input_.problem, i, &start);
+      set.deferred[o] = 0;
+      if (kept && to != set.state[o])
+        flips[count++] = {o, to};
+      else if (to != ActiveSet::active)
+        basis_.rest(o, to);
+      else
+        set.state[o] = to;
+      if (to == ActiveSet::active) set.x[p] = start.impulse.empty() ? 0 : -start.impulse[i];
+    }
+    return {flips, count};
+  }
+
   void pivot(Array<mlcp_pivot>* trace) {
     Simplex simplex(input_, basis_, check_, limits_, end_.counts);
     end_.method = MLCP_METHOD_SIMPLEX;
@@ -72,6 +114,7 @@ class Run {
     end_.method = MLCP_METHOD_NEWTON;
     end_.outcome = newton.solve(island_);
     end_.epsilon = newton.epsilon();
+    semidefinite_ = newton.semidefinite();
     if (end_.outcome == MLCP_NOT_POSITIVE_DEFINITE) end_.indefinite = basis_.factor.failed_position(island_);
     return end_.outcome != MLCP_ITERATION_LIMIT;
   }
@@ -103,6 +146,7 @@ class Run {
   const std::int32_t index_;
   IslandEnd& end_;
   const std::int32_t rows_;
+  bool semidefinite_ = false;
   Limits limits_;
 };
 
@@ -119,6 +163,20 @@ IslandEnd solve_island(const SolveInput& input, Basis& basis, CertificateCheck& 
     end.outcome = watch.stopped();
   }
   return end;
+}
+
+void solve_island_again(const SolveInput& input, Basis& basis, CertificateCheck& check, Watch& watch, std::int32_t index, const Mask& start,
+                        Array<mlcp_pivot>* trace, IslandEnd& end) {
+  const double epsilon = end.epsilon;
+  const bool kept = end.kept;
+  end = {};
+  end.outcome = watch.stopped();
+  if (end.outcome != MLCP_SOLVED) return;
+  try {
+    Run(input, basis, check, watch, index, end).solve_again(start, epsilon, kept, trace);
+  } catch (const Stopped&) {
+    end.outcome = watch.stopped();
+  }
 }
 
 void finish_island(const SolveInput& input, Basis& basis, Watch& watch, std::int32_t index, std::uint8_t* redundant, IslandEnd& end) {

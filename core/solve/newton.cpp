@@ -12,7 +12,7 @@ namespace {
 constexpr int patience = 10;
 /// Refined points as good as this are judged row by row; worse ones stand on a factor that cannot be trusted.
 constexpr double refined = 1e-13;
-constexpr double sharp_epsilon = 1e-8, first_epsilon = 1e-2, reduction = 0.3;
+constexpr double first_epsilon = 1e-2, reduction = 0.3;
 constexpr int most_descents = 30, most_inner_steps = 60;
 /// Rounding may move a row once more after the refined point.
 constexpr int most_rounds = 5;
@@ -24,6 +24,13 @@ constexpr double semidefinite_delta = 1e-8;
 /// The active set is one to go back to: the start, or one that solved a problem nearby.
 void Newton::keep(const Island& island) {
   std::copy(basis_.set.state.begin() + island.first_row, basis_.set.state.begin() + island.last_row, basis_.work.state.begin() + island.first_row);
+}
+
+void Newton::go_back(const Island& island) {
+  for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
+    basis_.set.state[o] = basis_.work.state[o];
+    if (basis_.set.state[o] != ActiveSet::active) basis_.rest(o, static_cast<ActiveSet::State>(basis_.set.state[o]));
+  }
 }
 
 /// Full steps until no row changes. Where changes at once do not become fewer, only the larger ones are made, down to a single one: rows that undo
@@ -84,6 +91,10 @@ Newton::Ending Newton::exact(const Island& island) {
   const auto wanted = active();
   if (!proximal_.soften(island, 0, 0, dependent_pivot)) return Ending::indefinite;
   if (active() < wanted) return Ending::dependent;
+  return exact_rounds(island);
+}
+
+Newton::Ending Newton::exact_rounds(const Island& island) {
   for (int round = 0; round < most_rounds; ++round) {
     const Ending ending = full_steps(island, dependent_pivot);
     if (ending != Ending::settled) return ending;
@@ -103,6 +114,10 @@ bool Newton::soften(const Island& island, double epsilon) {
 
 Newton::Ending Newton::sharp(const Island& island, int rounds) {
   if (!soften(island, sharp_epsilon)) return Ending::indefinite;
+  return sharp_rounds(island, rounds);
+}
+
+Newton::Ending Newton::sharp_rounds(const Island& island, int rounds) {
   for (int round = 0; round < rounds; ++round) {
     const Ending ending = full_steps(island, 0);
     if (ending != Ending::settled) return ending;
@@ -150,23 +165,17 @@ Newton::Ending Newton::descent(const Island& island) {
 
 mlcp_outcome Newton::solve(const Island& island) {
   keep(island);
-  const auto go_back = [&] {
-    for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
-      basis_.set.state[o] = basis_.work.state[o];
-      if (basis_.set.state[o] != ActiveSet::active) basis_.rest(o, static_cast<ActiveSet::State>(basis_.set.state[o]));
-    }
-  };
   proximal_.enter(island);
   proximal_.center_here(island);
   delta_ = 0;
   Ending ending = island.crowded ? Ending::dependent : exact(island);
   for (int attempt = 0; attempt < 2 && ending != Ending::settled && ending != Ending::stopped; ++attempt) {
-    go_back();
+    go_back(island);
     ending = attempt == 0 ? sharp(island, 4) : descent(island);
   }
   if (ending != Ending::settled) {
     basis_.values.regularise(*basis_.pattern, island, 0, 0);
-    go_back();
+    go_back(island);
   }
   switch (ending) {
     case Ending::settled: return MLCP_SOLVED;
@@ -174,6 +183,18 @@ mlcp_outcome Newton::solve(const Island& island) {
     case Ending::indefinite: return MLCP_NOT_POSITIVE_DEFINITE;
     default: return MLCP_ITERATION_LIMIT;
   }
+}
+
+mlcp_outcome Newton::resume(const Island& island, std::span<const Flip> flips, double epsilon) {
+  proximal_.enter(island);
+  proximal_.resume(epsilon);
+  Ending ending = basis_.change(island, flips, epsilon > 0 ? 0 : dependent_pivot, counts_) > 0 && epsilon == 0 ? Ending::dependent : Ending::settled;
+  keep(island);
+  proximal_.center_here(island);
+  if (ending == Ending::settled) ending = epsilon > 0 ? sharp_rounds(island, most_rounds) : exact_rounds(island);
+  if (ending == Ending::settled) return MLCP_SOLVED;
+  basis_.values.regularise(*basis_.pattern, island, 0, 0);
+  return ending == Ending::stopped ? stopped_ : MLCP_ITERATION_LIMIT;
 }
 
 /// The proximal point around 0, refined against K: every correction is (A + εD)⁻¹A z, which lies in D⁻¹ range(A) as the least norm does, so

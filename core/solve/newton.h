@@ -3,6 +3,9 @@
 
 namespace mlcp {
 
+/// Of a factor that has room for dependent rows, and is still that of K to refinement.
+constexpr double sharp_epsilon = 1e-8;
+
 /// Semismooth Newton on the complementarity conditions: every row is put where the last point says it belongs, many at a time, and the linear
 /// system is solved again (a primal-dual active set method; Hintermüller, Ito & Kunisch 2002). The changes go through row toggles of
 /// the factor, or through one factorization where that touches less.
@@ -19,21 +22,28 @@ class Newton {
   /// before: states, and impulses where they are known (x of the rows).
   /// SOLVED: the basis holds the answer. ITERATION_LIMIT: it gave up, and the active set is the best start that it knows.
   mlcp_outcome solve(const Island& island);
+  /// Goes on from an answer that the factor with this ε belongs to, after numbers of rows have changed: `flips` first, then full steps.
+  /// SOLVED: the basis holds the answer. ITERATION_LIMIT: it takes more than that.
+  mlcp_outcome resume(const Island& island, std::span<const Flip> flips, double epsilon);
   /// Among the impulses that give this velocity, those with the least Σ aᵢγᵢ²: the proximal point around 0 as ε → 0. before: the basis holds an
   /// answer. false: not found, and the point is what it was.
   bool least_norm(const Island& island);
   double epsilon() const { return proximal_.epsilon(); }  ///< of the factor that is left
+  bool semidefinite() const { return delta_ > 0; }        ///< that factor is of M + δ
 
  private:
   enum class Ending { settled, stuck, dependent, stopped, indefinite };
   Ending exact(const Island& island);
+  Ending exact_rounds(const Island& island);
   Ending sharp(const Island& island, int rounds);
+  Ending sharp_rounds(const Island& island, int rounds);
   Ending descent(const Island& island);
   Ending full_steps(const Island& island, double drop);
   Ending minimise(const Island& island);
   Ending finish(const Island& island);
   bool empty_rows_hold(const Island& island) const;
   void keep(const Island& island);
+  void go_back(const Island& island);
   bool soften(const Island& island, double epsilon);
 
   Basis& basis_;

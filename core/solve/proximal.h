@@ -16,6 +16,8 @@ class Proximal {
   void enter(const Island& island);
   /// ε and δ from now on, and the factor to go with them.  false: M + δ is not positive definite.
   bool soften(const Island& island, double epsilon, double delta, double drop);
+  /// ε from now on, the factor being there.
+  void resume(double epsilon) { epsilon_ = epsilon; }
   double epsilon() const { return epsilon_; }
 
   /// center := x of the basis, impulses within their bounds

@@ -7,8 +7,11 @@
 #include "cascade.h"
 #include "chain.h"
 #include "gripper.h"
+#include "linkage.h"
 #include "pile.h"
 #include "rope.h"
+#include "rope_over_pegs.h"
+#include "table.h"
 #include "tower.h"
 #include "wall.h"
 #include "wall_of_boxes.h"
@@ -22,6 +25,9 @@ constexpr Exhibit exhibits[] = {
     {"gripper", "fingers", 8, {160, 2}, [](std::int32_t size, unsigned seed) -> Made { return std::make_unique<Gripper>(size, seed); }},
     {"cascade", "bodies", 100, {360, 4}, [](std::int32_t size, unsigned seed) -> Made { return std::make_unique<Cascade>(size, seed); }},
     {"bottles", "bottles", 24, {800, 8, 320}, [](std::int32_t size, unsigned seed) -> Made { return std::make_unique<BottleLine>(size, seed); }},
+    {"linkage", "of one size", 1, {100}, [](std::int32_t, unsigned) -> Made { return std::make_unique<Linkage>(); }},
+    {"table", "of one size", 1, {60}, [](std::int32_t, unsigned) -> Made { return std::make_unique<Table>(0.2, 0.1); }},
+    {"rope_over_pegs", "links", 30, {120}, [](std::int32_t size, unsigned) -> Made { return std::make_unique<RopeOverPegs>(size); }},
     {"pile", "spheres", 100, {60}, [](std::int32_t size, unsigned seed) -> Made { return std::make_unique<Pile>(size, seed); }},
     {"chain", "links", 30, {60}, [](std::int32_t size, unsigned seed) -> Made { return std::make_unique<Chain>(size, true, 1.0, seed); }},
     {"rope", "links", 60, {60}, [](std::int32_t size, unsigned seed) -> Made { return std::make_unique<Rope>(size, seed); }},

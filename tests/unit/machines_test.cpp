@@ -52,7 +52,8 @@ INSTANTIATE_TEST_SUITE_P(Gallery, Machines,
                                          Expected{"bottles", 10, 300, 1e-4, 1e-5, 0}, Expected{"wall_of_boxes", 4, 60, 0.01, 0, 1e-6},
                                          Expected{"pile", 60, 60, 1e-3, 0, 1e-6}, Expected{"chain", 20, 60, 1e-2, 1e-2, 1e-3},
                                          Expected{"rope", 60, 60, 1e-2, 1e-2, 0.02}, Expected{"tower", 6, 60, 1e-9, 0, 1e-9},
-                                         Expected{"wall", 4, 60, 1e-9, 0, 1e-9}),
+                                         Expected{"wall", 4, 60, 1e-9, 0, 1e-9}, Expected{"linkage", 1, 60, 1e-6, 2e-3, 0},
+                                         Expected{"table", 1, 60, 1e-6, 0, 1e-6}, Expected{"rope_over_pegs", 30, 60, 1e-3, 1e-3, 1e-3}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(Gripper, centres_the_part) {
