@@ -101,7 +101,10 @@ bool Solver::State::analyze(const Problem& problem, const Mask* enabled, const P
   return true;
 }
 
-void Solver::analyze(const Problem& problem, const Mask* enabled) { state_->analyze(problem, enabled); }
+void Solver::analyze(const Problem& problem, const Mask* enabled) {
+  state_->analyze(problem, enabled);
+  state_->dense.takes({problem, enabled, state_->settings});  // finds the islands, which is all that a solve of small ones needs
+}
 
 /// v = k / M where nothing couples to anything.
 void Solver::State::solve_free_velocities(const Problem& problem, const Array<std::int32_t>& free) {

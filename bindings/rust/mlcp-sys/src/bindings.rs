@@ -1372,5 +1372,7 @@ unsafe extern "C" {
         folder: *const ::core::ffi::c_char,
         limit: i32,
     ) -> mlcp_status;
-    pub fn mlcp_solver_failure_file(solver: *const mlcp_solver) -> *const ::core::ffi::c_char;
+    pub fn mlcp_solver_failure_file(
+        solver: *const mlcp_solver,
+    ) -> *const ::core::ffi::c_char;
 }
