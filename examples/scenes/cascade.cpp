@@ -95,7 +95,7 @@ void Cascade::add_contacts(ContactList& contacts) const {
     }
   }
   for (const auto& [a, b] : near_pairs(centres, 2 * (largest + pill_half_length) + horizon * fastest))
-    near(a, b, contact(shape(a), frame(a), shape(b), frame(b)), 0, rock);
+    for (const ContactPoint& at : scenes::contacts(shape(a), frame(a), shape(b), frame(b))) near(a, b, at, at.feature, rock);
 }
 
 void Cascade::draw(Drawing& to) const {
