@@ -35,6 +35,8 @@ double form_transposed(const Weights& g, const double* b, const Weights& h, std:
 }  // namespace
 
 void ConeRows::Touched::start(std::size_t size) {
+  if (unfinished) place.assign(place.size(), -1);
+  unfinished = true;
   if (place.size() < size) place.resize(size, -1);
   index.clear();
   coefficient.clear();
@@ -51,6 +53,7 @@ double* ConeRows::Touched::at(std::int32_t i, std::int32_t width) {
 
 void ConeRows::Touched::finish() {
   for (const std::int32_t i : index) place[i] = -1;
+  unfinished = false;
 }
 
 void ConeRows::copy_bodies(const Problem& problem) {
