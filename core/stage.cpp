@@ -82,6 +82,8 @@ void Stage::renew(const Memory& memory) {
   basis = Basis(memory);
   ends = Array<IslandEnd>(memory);
   tasks_ = Array<std::int32_t>(memory);
+  changed_ = Array<std::uint8_t>(memory);
+  epsilon_ = Array<double>(memory);
   check_.trim();
 }
 

@@ -207,7 +207,7 @@ TEST(Scenes, draw_says_where_every_row_acts) {
     check(mlcp_problem_body_range(scene.problem(), 0, nullptr, &dimension));
     // which components of the direction the first velocities of a body are
     const std::string name = exhibit.name;
-    const std::vector<std::size_t> axes_of = name == "chain" || name == "rope" ? std::vector<std::size_t>{0, 2}
+    const std::vector<std::size_t> axes_of = name == "chain" || name == "rope" || name == "linkage" || name == "rope_over_pegs" ? std::vector<std::size_t>{0, 2}
                                              : name == "bottles"               ? std::vector<std::size_t>{0, 1}
                                                                                : std::vector<std::size_t>{0, 1, 2};
     for (std::int32_t i = 0; i < j.rows; ++i) {
