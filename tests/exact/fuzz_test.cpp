@@ -20,7 +20,7 @@ constexpr double tolerance = 1e-9;
 /// |v − v*| of small well scaled problems; pgs ends at the tolerance, which the condition multiplies.
 double largest_difference(mlcp_method method) { return method == MLCP_METHOD_PGS ? 1e-6 : 1e-9; }
 /// Problems of a family, of which there are eight.
-int count() { return std::getenv("MLCP_TEST_LONG") ? 125000 : 2500; }
+int count() { return std::getenv("MLCP_TEST_LONG") ? 125000 : MLCP_FUZZ_COUNT; }
 
 /// What the numbers of a family allow to be said.
 enum class Data {
