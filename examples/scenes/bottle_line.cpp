@@ -14,7 +14,7 @@ constexpr double pi = 3.14159265358979323846;
 
 constexpr Sphere bottle = {0.035};
 constexpr double bottle_mass = 0.5, bottle_height = 0.22;
-constexpr Material glass = {.friction = 0.10};
+constexpr Material glass = {.friction = 0.05};
 constexpr double margin = 0.01;                     // contacts wider open than this are not listed, m
 
 // The wheel turns about the origin, counterclockwise seen from above: bottles come along y = −pitch and leave along y = +pitch.
@@ -22,11 +22,11 @@ constexpr std::int32_t fingers = 14;
 constexpr double pitch = 0.20;                      // radius of the bottles' way around the wheel
 constexpr Capsule finger = {0.035, 0.009};
 constexpr double finger_middle = 0.168;             // distance from the wheel's axis
-constexpr double wheel_speed = 1.1;                 // rad/s
+constexpr double wheel_speed = 1.1, clutch = 8;     // rad/s, N m
 
 constexpr double clearance = 0.003, guide_radius = 0.006;
 constexpr double from_guide = 0.035 + clearance + guide_radius;  // of the middle of a bottle that runs along it
-constexpr double entry = -1.35, plate = -0.16;      // x where the belts begin and where they meet the dead plate
+constexpr double entry = -1.30, plate = -0.16;      // x where the belts begin and where they meet the dead plate
 constexpr double wide = 0.02, funnel_begin = -0.85, funnel_end = -0.40;  // the slanting guide: from y = wide down to the lane
 constexpr double belt_speed = 0.28, belt_friction = 0.3;
 constexpr double shake = 2e-3, shakes = 7;          // m/s and 1/s: belts and plate shake sideways and turn the bottles a little
@@ -72,7 +72,7 @@ Frame finger_frame(std::int32_t i) {
 Point place(std::int32_t i) {
   constexpr std::int32_t across = 2;
   const std::int32_t row = i / across, column = i % across;
-  return {funnel_begin - 0.05 - 0.085 * row, -pitch + 0.085 * column + (row % 2 == 0 ? 0.0 : 0.04), 0};
+  return {funnel_begin + 0.05 - 0.085 * row, -pitch + 0.085 * column + (row % 2 == 0 ? 0.0 : 0.04), 0};
 }
 
 std::vector<RigidBody> bodies_of(std::int32_t bottles, unsigned seed) {
@@ -84,7 +84,8 @@ std::vector<RigidBody> bodies_of(std::int32_t bottles, unsigned seed) {
     for (std::size_t axis = 0; axis < 2; ++axis) at[axis] += random.uniform(-0.003, 0.003);
     bodies.push_back({bottle_mass, {moment, moment, moment}, {at}});
   }
-  bodies.push_back({10, {0.2, 0.2, 0.2}, {}});
+  const RigidBody wheel = {5, {0.05, 0.05, 0.1}, {}};
+  bodies.insert(bodies.end(), {wheel, wheel});  // and its shaft
   return bodies;
 }
 
@@ -97,19 +98,23 @@ Point belt_velocity(const Point& at) {
 }  // namespace
 
 BottleLine::BottleLine(std::int32_t bottles, unsigned seed)
-    : RigidScene(Motion::Flat, bodies_of(bottles, seed)), wheel_(bottles), rounds_(static_cast<std::size_t>(bottles)) {
-  prescribe(wheel_, rate_about(wheel_speed * axes[2]));
+    : RigidScene(Motion::Flat, bodies_of(bottles, seed)), shaft_(bottles), wheel_(bottles + 1),
+      bearing_(joint(shaft_, wheel_, {{0, 0, 0}, Rotation::about(axes[0], -0.5 * pi)})), rounds_(static_cast<std::size_t>(bottles)) {
+  prescribe(shaft_, rate_about(wheel_speed * axes[2]));
 }
 
 void BottleLine::add_rows(RowList& rows) const {
   constexpr double grip = belt_friction * bottle_mass * gravity;
   const double sideways = shake * std::cos(2 * pi * shakes * time());
+  add_pin(rows, bearing_);
+  const Twist turn = rate_about(axes[2]);
+  add_motor(rows, shaft_, wheel_, -turn, turn, 0, clutch, 100, {{0, 0, 0}, {0, 0, 0}});
   for (std::int32_t i = 0; i < count(); ++i) {
     const Point& at = frame(i).origin;
     const Point belt = belt_velocity(at) + Point{0, sideways, 0};
     add_motor(rows, MLCP_WORLD, i, {}, rate_along(axes[0], {0, 0, 0}), belt[0], grip, 100, {at, axes[0]});
     add_motor(rows, MLCP_WORLD, i, {}, rate_along(axes[1], {0, 0, 0}), belt[1], grip, 101, {at, axes[1]});
-    add_motor(rows, MLCP_WORLD, i, {}, rate_about(axes[2]), sideways / bottle.radius, 2.0 / 3 * bottle.radius * grip, 102, {at, {0, 0, 0}});
+    add_motor(rows, MLCP_WORLD, i, {}, turn, sideways / bottle.radius, 2.0 / 3 * bottle.radius * grip, 102, {at, {0, 0, 0}});
   }
 }
 
@@ -152,18 +157,18 @@ void BottleLine::send_in_again(std::int32_t leaving) {
 void BottleLine::draw(Drawing& to) const {
   using Role = Drawing::Role;
   to.eye = {-0.25, -0.72, 0.75};
-  const auto flat = [&](double x0, double y0, double x1, double y1, double z, Role role) {
-    to.faces.push_back({{{x0, y0, z}, {x1, y0, z}, {x1, y1, z}, {x0, y1, z}}, role});
+  const auto flat = [&](double x0, double y0, double x1, double y1) {
+    to.faces.push_back({{{x0, y0, 0}, {x1, y0, 0}, {x1, y1, 0}, {x0, y1, 0}}, Role::Ground});
   };
   const double lane = -pitch - from_guide, outer = pitch + from_guide, middle = pitch - from_guide;
-  flat(plate, lane, outer, outer, -0.002, Role::Machine);
+  flat(plate, lane, outer, outer);
   for (const double sign : {1.0, -1.0}) {
     const double y0 = sign > 0 ? lane : middle, y1 = sign > 0 ? wide : outer;
-    flat(entry, y0, plate, y1, -0.002, Role::Ground);
+    flat(entry, y0, plate, y1);
     // slats that move with the belt
     constexpr double slat = 0.09;
     const double moved = std::fmod(belt_speed * time(), slat);
-    for (double x = entry + (sign > 0 ? moved : slat - moved); x + 0.006 < plate; x += slat) flat(x, y0, x + 0.006, y1, -0.001, Role::Machine);
+    for (double x = entry + (sign > 0 ? moved : slat - moved); x + 0.006 < plate; x += slat) flat(x, y0, x + 0.006, y1);
   }
   for (const Guide& guide : guides()) {
     Frame raised = guide.frame();

@@ -42,10 +42,12 @@ void ContactList::add_to(const Problem& problem, double h, double stabilisation,
   for (std::size_t i = 0; i < gap_.size(); ++i) {
     const std::size_t row = i * static_cast<std::size_t>(rows_);
     double& normal = r[row];
-    if (std::isfinite(stiffness_[i]))
+    if (std::isfinite(stiffness_[i])) {
       check(mlcp_timestep_spring(h, stiffness_[i], 0, gap_[i], &compliance[row], &normal));
-    else
+      std::fill_n(&compliance[row + 1], rows_ - 1, compliance[row]);
+    } else {
       check(mlcp_timestep_rows(h, stabilisation, true, 1, &gap_[i], nullptr, &normal));
+    }
     if (friction_[i] == 0) models[i] = MLCP_FRICTION_NONE;
     if (restitution_[i] == 0) continue;
     const double before = approach(i, v);

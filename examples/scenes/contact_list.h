@@ -10,7 +10,7 @@ namespace scenes {
 struct Material {
   double friction = 0;           // coefficient µ; of Coulomb's law, 0: none
   double restitution = 0;        // Newton's coefficient, of approaches faster than `slow`
-  double stiffness = INFINITY;   // of the surfaces along the normal, N/m
+  double stiffness = INFINITY;   // of the surfaces, N/m; what sticks creeps, since no step remembers how far it was pushed aside
   Point velocity = {0, 0, 0};    // of a's surface along itself, beyond that of its body: a conveyor belt, m/s
 };
 

@@ -1,5 +1,6 @@
 #include "drawing.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "geometry/box_contacts.h"
@@ -25,10 +26,24 @@ Drawing::Corners corners(const Box& box, const Frame& frame) {
   return corners;
 }
 
+/// In slices along the longest edge: pictures sort faces by the depth of their middles, which long faces would mislead.
 void draw(Drawing& to, const Box& box, const Frame& frame, Drawing::Role role) {
-  constexpr std::size_t faces[6][4] = {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}};
-  const Drawing::Corners at = corners(box, frame);
-  for (const auto& [i, j, k, l] : faces) draw_face(to, std::array{at[i], at[j], at[k], at[l]}, role);
+  constexpr std::size_t faces[6][4] = {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}};  // −x, +x, −y …
+  const Point& e = box.half_extent;
+  const std::size_t longest = static_cast<std::size_t>(std::max_element(e.begin(), e.end()) - e.begin());
+  const double second = std::max(e[(longest + 1) % 3], e[(longest + 2) % 3]);
+  const int slices = static_cast<int>(std::ceil(e[longest] / (3 * second)));
+  Box slice = box;
+  slice.half_extent[longest] /= slices;
+  for (int s = 0; s < slices; ++s) {
+    const Frame middle = frame * Frame{((2 * s + 1.0) / slices - 1) * e[longest] * axes[longest]};
+    const Drawing::Corners at = corners(slice, middle);
+    for (std::size_t face = 0; face < 6; ++face) {
+      const bool inside = face / 2 == longest && s != (face % 2 == 0 ? 0 : slices - 1);
+      const auto& [i, j, k, l] = faces[face];
+      if (!inside) draw_face(to, std::array{at[i], at[j], at[k], at[l]}, role);
+    }
+  }
 }
 
 void draw(Drawing& to, const Capsule& capsule, const Frame& frame, Drawing::Role role) {

@@ -9,7 +9,7 @@ namespace scenes {
 
 /// What there is to see of a scene, in the world's frame, m. A scene in the plane has y = 0 and its height in z.
 struct Drawing {
-  /// What a thing is to the scene; pictures give each a colour.
+  /// What a thing is to the scene; pictures give each a colour. The ground lies under everything.
   enum class Role { Body, Product, Machine, Drive, Ground };
   struct Ball {
     Point centre;

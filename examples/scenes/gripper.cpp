@@ -94,6 +94,10 @@ double Gripper::part_off_centre() const {
 
 double Gripper::part_slid() const { return part_place - base().to_local(frame(part_body).origin)[0]; }
 
+std::vector<Scene::Measure> Gripper::measures() const {
+  return {{"part_off_centre", part_off_centre()}, {"part_slid", part_slid()}, {"closed", closed()}};
+}
+
 double Gripper::opening(std::int32_t i) const {
   // x of the finger leans towards −z of the hinge's frame as the tips, at −x, go outwards
   const Point tip = hinge_frame(2 * pi * i / fingers_).rotation.inverse() * frame(finger(i)).axis(0);

@@ -15,8 +15,8 @@ struct GripperDesign {
 ///
 /// Models cam and fingers as rigid bodies in space, six velocities each: a slider and the stops of its stroke, a hinge a finger, the
 /// motor as a row with a target speed and a largest force, springs that open the fingers, the rollers in the conical bore of the cam as
-/// contacts without friction (they roll), two pads a finger on the round part as contacts with friction. The axis is x, z up.
-/// Leaves out the spin of the rollers, the elasticity of the fingers (what they share in force when all have closed is the solver's choice),
+/// contacts without friction (they roll), two elastic pads a finger on the round part as contacts with friction. The axis is x, z up.
+/// Leaves out the spin of the rollers, the elasticity of all but the pads,
 /// contacts of fingers with each other and of the part with anything but pads: none occurs in this stroke.
 class Gripper : public RigidScene {
  public:
@@ -33,6 +33,8 @@ class Gripper : public RigidScene {
   /// The motor closes and holds, then opens; s.
   static constexpr double period = 1.6, hold_until = 1.0;
 
+  bool driven() const override { return true; }
+  std::vector<Measure> measures() const override;
   void draw(Drawing& to) const override;
 
  protected:

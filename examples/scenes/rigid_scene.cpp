@@ -56,6 +56,12 @@ Twist RigidScene::twist(std::span<const double> v, std::size_t body) const {
   return whole;
 }
 
+Point RigidScene::velocity_of(std::int32_t body) const {
+  if (body == MLCP_WORLD) return {0, 0, 0};
+  const Twist v = twist(velocities(), static_cast<std::size_t>(body));
+  return {v[0], v[1], v[2]};
+}
+
 void RigidScene::place_body(std::int32_t body, const Frame& at) {
   RigidBody& placed = bodies_[static_cast<std::size_t>(body)];
   placed.frame = at;

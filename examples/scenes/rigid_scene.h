@@ -23,6 +23,8 @@ class RigidScene : public Scene {
   const Frame& frame(std::int32_t body) const;
   std::span<const RigidBody> bodies() const { return bodies_; }
 
+  /// Of the centre of mass; 0 for the world.
+  Point velocity_of(std::int32_t body) const;
   void place_body(std::int32_t body, const Frame& at);
   void set_velocity(std::int32_t body, const Twist& velocity);
   void prescribe(std::int32_t body, const Twist& velocity);

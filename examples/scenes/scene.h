@@ -41,6 +41,15 @@ class Scene {
   /// Kinetic and potential, J.
   double energy() const;
 
+  /// What the scene itself measures of what it does, at the present positions.
+  struct Measure {
+    const char* name;
+    double value;
+  };
+  virtual std::vector<Measure> measures() const { return {}; }
+  /// Whether something does work on the bodies: a motor, a belt, a hand that moves a body.
+  virtual bool driven() const { return false; }
+
   /// Adds what there is to see at the present positions, and for each row that prepare() would make now where it acts.
   virtual void draw(Drawing& to) const = 0;
 

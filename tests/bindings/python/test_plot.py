@@ -55,6 +55,8 @@ def test_work_precision_ends_with_the_solution():
 @pytest.mark.parametrize("name", mlcp.scenes)
 def test_every_scene_is_drawn_with_its_forces(name):
     scene = mlcp.Scene(name, 6)
+    for _ in range(20):  # until something touches
+        scene.step()
     scene.prepare()
     drawing = scene.draw()
     result = scene.finish()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
 from typing import Any, Literal, TypedDict
 
@@ -12,7 +12,7 @@ import scipy.sparse
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Buffer, Self, TypeAlias, Unpack
 
-from .records import Certificate, Contacts, Counts, Drawing, Errors, Factor, Outcome, Progress, RowState, Snapshot, Times
+from .records import Certificate, Contacts, Counts, Drawing, Errors, Exhibit, Factor, Outcome, Progress, RowState, Snapshot, Times
 
 # SciPy has no types: any of its sparse matrices and arrays, or what NumPy makes a dense one of
 MatrixLike: TypeAlias = ArrayLike | scipy.sparse.sparray | scipy.sparse.spmatrix
@@ -25,7 +25,7 @@ Friction: TypeAlias = Literal["none", "convex", "coulomb", "box", "findex"]
 
 version: str
 pivot_dtype: np.dtype[np.void]
-scenes: dict[str, tuple[str, int]]
+scenes: dict[str, Exhibit]
 
 class Settings(TypedDict, total=False):
     method: Method
@@ -253,7 +253,8 @@ class BoundProblem:
     def solve(self, warm: bool = False) -> Outcome: ...
 
 class Scene:
-    def __init__(self, name: str, size: int | None = None, *, seed: int = 1, **settings: Unpack[Settings]) -> None: ...
+    def __init__(self, name: str, size: int | None = None, *, seed: int = 1, design: Mapping[str, float] | None = None,
+                 **settings: Unpack[Settings]) -> None: ...
     @property
     def name(self) -> str: ...
     @property
@@ -265,6 +266,8 @@ class Scene:
     def problem(self) -> Problem: ...
     @property
     def start(self) -> Mask | None: ...
+    @property
+    def measures(self) -> dict[str, float]: ...
     def draw(self) -> Drawing: ...
 
 def dumps(problem: Problem, solver: Solver | None = None, *, enabled: Mask | None = None, start: Mask | None = None) -> bytes: ...

@@ -5,8 +5,9 @@ Every function draws into the axes that it is given or makes new ones, returns t
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, NamedTuple
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -14,13 +15,12 @@ import scipy.sparse
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PatchCollection
 from matplotlib.colors import BoundaryNorm, LinearSegmentedColormap, ListedColormap
-from matplotlib.patches import Circle, Polygon
+from matplotlib.patches import Circle, Patch, Polygon
 from numpy.typing import NDArray
-from scipy.spatial import ConvexHull
 
 from ._core import Mask, Problem, Result, Solver
 from .errors import ArgumentError
-from .records import Drawing, Factor, RowState
+from .records import Drawing, Factor, Role, RowState
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -159,7 +159,7 @@ def _time_and_error(solver: Solver, problem: Problem, limit: int, repeats: int) 
 
 
 def scene(drawing: Drawing, *, axes: Axes | None = None) -> Axes:
-    """Draw a scene from the front: x to the right, z up, what is nearer (smaller y) over what is farther.
+    """Draw a scene in parallel projection from where its `Drawing.eye` lies, what is nearer over what is farther.
 
     Parameters
     ----------
@@ -169,24 +169,80 @@ def scene(drawing: Drawing, *, axes: Axes | None = None) -> Axes:
     """
     if axes is None:
         axes = _axes_for(drawing)
-    shapes: list[tuple[float, Any]] = []
-    for x, y, z, radius in drawing.spheres:
-        shapes.append((y, Circle((x, z), radius)))
-    for corners in drawing.boxes:
-        front = corners[:, [0, 2]]
-        shapes.append((corners[:, 1].mean(), Polygon(front[ConvexHull(front).vertices])))
-    shapes.sort(key=lambda shape: -shape[0])
-    axes.add_collection(PatchCollection([patch for _, patch in shapes], facecolor="#dfe7ef", edgecolor="#8896a5", linewidth=0.6))
-    axes.add_collection(LineCollection([path[:, [0, 2]] for path in drawing.paths], colors="0.25", linewidths=1.2))
-    axes.set(aspect="equal", xlabel="x, m", ylabel="z, m")
+    view = _View.of(drawing)
+    patches: list[Patch] = []
+    colors: list[NDArray[np.float64]] = []
+    for _, patch, color in sorted([*_balls(drawing, view), *_faces(drawing, view)], key=lambda shape: shape[0]):
+        patches.append(patch)
+        colors.append(color)
+    axes.add_collection(PatchCollection(patches, facecolor=colors, edgecolor=[0.86 * color for color in colors], linewidth=0.4))
+    axes.add_collection(LineCollection([view.flat(path) for path in drawing.paths], colors="0.25", linewidths=1.2))
+    axes.set(aspect="equal")
+    if view.upright:
+        axes.set(xlabel="x, m", ylabel="z, m")
+    else:
+        axes.set_axis_off()
     axes.autoscale_view()
     return axes
 
 
+class _View(NamedTuple):
+    """A parallel projection: to the right, up, and towards the eye."""
+
+    right: NDArray[np.float64]
+    up: NDArray[np.float64]
+    eye: NDArray[np.float64]
+
+    @classmethod
+    def of(cls, drawing: Drawing) -> _View:
+        eye = drawing.eye / np.linalg.norm(drawing.eye)
+        right = np.cross([0.0, 0.0, 1.0], eye)
+        right /= np.linalg.norm(right)
+        return cls(right, np.cross(eye, right), eye)
+
+    @property
+    def upright(self) -> bool:
+        """Whether the picture shows x and z."""
+        return bool(self.eye[1] == -1)
+
+    def flat(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Where points (..., 3) are in the picture, (..., 2)."""
+        return np.stack([points @ self.right, points @ self.up], axis=-1)
+
+
+_ROLE_COLORS = np.array([[0.78, 0.84, 0.90], [0.93, 0.66, 0.25], [0.66, 0.68, 0.70], [0.36, 0.55, 0.74], [0.90, 0.90, 0.88]])
+_LIGHT = np.array([-0.35, -0.55, 0.76])
+_BOX_FACES = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
+_Shape = tuple[float, Patch, NDArray[np.float64]]
+
+
+def _balls(drawing: Drawing, view: _View) -> Iterable[_Shape]:
+    """Each ball, and a highlight on it."""
+    glint = view.flat(_LIGHT)
+    for (*centre, radius), role in zip(drawing.spheres, drawing.sphere_roles, strict=True):
+        color = _ROLE_COLORS[role]
+        at, depth = view.flat(np.array(centre)), float(np.array(centre) @ view.eye)
+        yield depth, Circle(tuple(at), radius), 0.92 * color
+        yield depth, Circle(tuple(at + 0.28 * radius * glint), 0.55 * radius), 0.4 + 0.6 * color
+
+
+def _faces(drawing: Drawing, view: _View) -> Iterable[_Shape]:
+    """The faces that look at the eye, brighter the more they look at the light."""
+    sides = [(corners[face], Role.BODY) for corners in drawing.boxes for face in _BOX_FACES]
+    for corners, role in [*sides, *zip(drawing.faces, drawing.face_roles, strict=True)]:
+        normal = np.cross(corners, np.roll(corners, -1, axis=0)).sum(axis=0)
+        size = np.linalg.norm(normal)
+        if not normal @ view.eye > 1e-9 * size:
+            continue
+        brightness = 0.72 + 0.28 * max(0.0, float(normal @ _LIGHT) / size)
+        depth = -math.inf if role == Role.GROUND else float(corners.mean(axis=0) @ view.eye)
+        yield depth, Polygon(view.flat(corners)), brightness * _ROLE_COLORS[role]
+
+
 def _axes_for(drawing: Drawing) -> Axes:
     """New axes about as high and wide as the scene."""
-    seen = np.concatenate([drawing.spheres[:, :3], drawing.boxes.reshape(-1, 3), *drawing.paths, drawing.points])
-    width, height = np.ptp(seen[:, [0, 2]], axis=0) if len(seen) else (1.0, 1.0)
+    seen = np.concatenate([drawing.spheres[:, :3], drawing.boxes.reshape(-1, 3), *drawing.paths, *drawing.faces, drawing.points])
+    width, height = np.ptp(_View.of(drawing).flat(seen), axis=0) if len(seen) else (1.0, 1.0)
     largest = max(width, height, np.finfo(float).tiny)
     size = np.clip(7 * np.array([width, height]) / largest, 2.5, 7)
     return plt.subplots(figsize=(size[0] + 1.2, size[1] + 0.6), layout="constrained")[1]
@@ -194,7 +250,7 @@ def _axes_for(drawing: Drawing) -> Axes:
 
 def contact_forces(drawing: Drawing, forces: NDArray[np.float64], *, scale: float | None = None, bar: bool = True,
                    axes: Axes | None = None) -> Axes:
-    """Draw the force of every row over a scene, seen from the front: a line along it, as long and as thick as it is strong.
+    """Draw the force of every row over a scene: a line along it, as long and as thick as it is strong.
 
     Parameters
     ----------
@@ -218,8 +274,9 @@ def contact_forces(drawing: Drawing, forces: NDArray[np.float64], *, scale: floa
     if scale is None:
         scale = 0.125 * max(axes.dataLim.width, axes.dataLim.height) / strongest
     acts = np.abs(forces) > 1e-6 * strongest
-    middle = drawing.points[acts][:, [0, 2]]
-    half = 0.5 * scale * forces[acts, np.newaxis] * drawing.directions[acts][:, [0, 2]]
+    view = _View.of(drawing)
+    middle = view.flat(drawing.points[acts])
+    half = 0.5 * scale * forces[acts, np.newaxis] * view.flat(drawing.directions[acts])
     strength = np.abs(forces[acts]) / strongest
     lines = LineCollection(list(np.stack([middle - half, middle + half], axis=1)), linewidths=0.5 + 2.5 * strength, cmap=_FORCE_COLORS,
                            capstyle="round")

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
     from ._core import Mask, Problem, Solver
 
-__all__ = ["Certificate", "ContactState", "Contacts", "Counts", "Drawing", "Errors", "Factor", "Outcome", "Progress", "RowState", "Snapshot", "Times"]
+__all__ = ["Certificate", "ContactState", "Contacts", "Counts", "Drawing", "Errors", "Exhibit", "Factor", "Outcome", "Progress", "Role", "RowState", "Snapshot", "Times"]
 
 
 class Outcome(str, Enum):
@@ -146,6 +146,26 @@ class Contacts(NamedTuple):
     facets: NDArray[np.int32]
 
 
+class Exhibit(NamedTuple):
+    """A scene that there is, and the steps of 0.01 s that make a film of it."""
+
+    unit: str  #: what its size counts
+    size: int  #: when it is not given
+    steps: int
+    every: int  #: a frame each so many steps
+    start: int  #: the step of the first frame
+
+
+class Role(IntEnum):
+    """What a thing is to a scene."""
+
+    BODY = 0
+    PRODUCT = 1
+    MACHINE = 2
+    DRIVE = 3
+    GROUND = 4
+
+
 class Drawing(NamedTuple):
     """What there is to see of a scene, in the world's frame, m. A scene in the plane has y = 0 and its height in z."""
 
@@ -154,3 +174,7 @@ class Drawing(NamedTuple):
     paths: list[NDArray[np.float64]]  #: (points, 3) each: bodies that are lines, and the ground
     points: NDArray[np.float64]  #: (m, 3): where each row acts
     directions: NDArray[np.float64]  #: (m, 3): γ/h is the force along it on body b, and its opposite on body a
+    sphere_roles: NDArray[np.uint8]  #: (count,): a `Role` each
+    faces: list[NDArray[np.float64]]  #: (corners, 3) each: flat polygons, seen from the side where they run counterclockwise
+    face_roles: NDArray[np.uint8]  #: (faces,): a `Role` each
+    eye: NDArray[np.float64]  #: (3,): the direction from which the scene is best seen

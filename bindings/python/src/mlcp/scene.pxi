@@ -4,9 +4,11 @@ from libcpp.vector cimport vector
 
 cimport mlcp._scenes as _scenes
 
-# by name: what `size` counts, and what it is when it is not given
-scenes = {_scenes.gallery()[i].name.decode(): (_scenes.gallery()[i].unit.decode(), _scenes.gallery()[i].default_size)
-          for i in range(_scenes.gallery().size())}
+cdef object exhibit(const _scenes.Exhibit &shown):
+    return records.Exhibit(shown.unit.decode(), shown.default_size, shown.film.steps, shown.film.every, shown.film.start)
+
+# by name
+scenes = {_scenes.gallery()[i].name.decode(): exhibit(_scenes.gallery()[i]) for i in range(_scenes.gallery().size())}
 
 
 cdef object points(vector[_scenes.Point] &path):
@@ -24,6 +26,9 @@ cdef class Scene:
         Number of spheres, links, boxes or bricks.
     seed : int
         For scenes that begin at random.
+    design : mapping of str to float, optional
+        Numbers that a designer chooses, by name. Of the gripper: friction of the pads, clearance between the open pads and a part on the axis
+        (m), part_mass and finger_mass (kg). Other scenes have none.
     settings : keywords of `Solver` but `progress` and `parallel_for`
     """
     cdef unique_ptr[_scenes.CppScene] scene
@@ -31,13 +36,18 @@ cdef class Scene:
     cdef readonly double time  # of the scene, s
     cdef bint prepared, finished
 
-    def __init__(self, str name, size=None, *, unsigned seed=1, **settings):
+    def __init__(self, str name, size=None, *, unsigned seed=1, design=None, **settings):
+        cdef vector[_scenes.Choice] choices
+        cdef _scenes.Choice choice
         if name not in scenes:
             raise errors.ArgumentError(f"there is no scene {name!r}, but {', '.join(scenes)}")
         self.name = name
         self.time = 0
         cdef bytes which = name.encode()
-        self.scene = _scenes.make_scene(which, size32(scenes[name][1] if size is None else size, "size"), seed)
+        for chosen_name, value in (design or {}).items():
+            choice.name, choice.value = chosen_name.encode(), value
+            choices.push_back(choice)
+        self.scene = _scenes.make_scene(which, size32(scenes[name].size if size is None else size, "size"), seed, choices)
         cdef mlcp_settings fields
         mlcp_settings_init(&fields, sizeof(mlcp_settings))
         write_settings(&fields, settings)
@@ -81,6 +91,12 @@ cdef class Scene:
         cdef const mlcp_mask *start = self.scene.get().start()
         return None if start is NULL else Mask.take(start)
 
+    @property
+    def measures(self):
+        """What the scene itself measures at the present positions, by name: of the gripper part_off_centre, part_slid and closed, m."""
+        measured = self.scene.get().measures()
+        return {measured[i].name.decode(): measured[i].value for i in range(measured.size())}
+
     def draw(self):
         """What there is to see at the present positions: a `Drawing`."""
         cdef _scenes.Drawing drawing
@@ -99,5 +115,9 @@ cdef class Scene:
         for i in range(drawing.actions.size()):
             point, direction = drawing.actions[i].point, drawing.actions[i].direction
             actions[i] = (point[0], point[1], point[2]), (direction[0], direction[1], direction[2])
+        faces = [points(drawing.faces[i].corners) for i in range(drawing.faces.size())]
+        sphere_roles = np.array([<int>drawing.spheres[i].role for i in range(drawing.spheres.size())], dtype=np.uint8)
+        face_roles = np.array([<int>drawing.faces[i].role for i in range(drawing.faces.size())], dtype=np.uint8)
+        eye = np.array([drawing.eye[0], drawing.eye[1], drawing.eye[2]])
         paths = [points(drawing.paths[i]) for i in range(drawing.paths.size())]
-        return records.Drawing(spheres, boxes, paths, actions[:, 0], actions[:, 1])
+        return records.Drawing(spheres, boxes, paths, actions[:, 0], actions[:, 1], sphere_roles, faces, face_roles, eye)
