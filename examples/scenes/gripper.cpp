@@ -1,6 +1,7 @@
 #include "gripper.h"
 
 #include <cmath>
+#include <stdexcept>
 
 #include "geometry/cam_contacts.h"
 #include "geometry/sphere_contacts.h"
@@ -18,7 +19,6 @@ constexpr Point roller_place = {-0.045, 0, 0.020};
 constexpr Point pad_places[2] = {{-0.100, 0, -0.008}, {-0.130, 0, -0.008}};
 constexpr Sphere roller = {0.008}, pad = {0.006};
 constexpr Box beam = {{0.067, 0.006, 0.005}};      // of the finger
-constexpr double finger_mass = 0.06;               // kg
 constexpr double spring = 0.6, preload = 0.12;     // of a finger, opening it: N m/rad, rad
 constexpr double widest = 0.16;                    // opening at the stop, rad
 
@@ -28,9 +28,9 @@ constexpr double cam_outside = 0.088;              // radius, m
 constexpr double cam_mass = 1.2;
 constexpr double motor_speed = 0.06, motor_force = 250;
 
-constexpr Capsule part = {0.028, 0.026};
-constexpr double part_mass = 0.7;
-constexpr Material grip = {.friction = 0.2, .stiffness = 1e6};
+constexpr double part_half_length = 0.028, part_place = -0.115;  // m, along the axis
+constexpr double free_radius = 0.042;              // of the circle that the pads of the open gripper leave free, m
+constexpr double grip_stiffness = 1e6;
 
 constexpr std::int32_t part_body = 0, cam_body = 1;
 
@@ -46,16 +46,24 @@ Frame hinge_frame(double angle) {
   return base() * Frame{turned * Point{0, 0, hinge_radius}, turned};
 }
 
-std::vector<RigidBody> bodies_of(std::int32_t fingers, unsigned seed) {
+Capsule part_of(const GripperDesign& design) {
+  const auto positive = [](double value) { return value > 0 && std::isfinite(value); };
+  if (!(design.friction >= 0 && std::isfinite(design.friction))) throw std::invalid_argument("friction is negative or not finite");
+  if (!positive(design.clearance) || design.clearance >= free_radius) throw std::invalid_argument("clearance is not between 0 and 0.042 m");
+  if (!positive(design.part_mass) || !positive(design.finger_mass)) throw std::invalid_argument("part_mass and finger_mass are positive");
+  return {part_half_length, free_radius - design.clearance};
+}
+
+std::vector<RigidBody> bodies_of(std::int32_t fingers, unsigned seed, const GripperDesign& design) {
   Random random(seed);
-  Frame part_frame = on_axis(-0.115);
+  Frame part_frame = on_axis(part_place);
   part_frame.origin = part_frame.origin + Point{0, random.uniform(-0.002, 0.002), -0.0085};
-  std::vector<RigidBody> bodies = {solid(part, part_mass, part_frame)};
+  std::vector<RigidBody> bodies = {solid(part_of(design), design.part_mass, part_frame)};
   const double r2 = cam_outside * cam_outside;
   bodies.push_back({cam_mass, cam_mass * Point{0.4 * r2, 0.4 * r2, 0.8 * r2}, on_axis(cam_rest)});
   for (std::int32_t i = 0; i < fingers; ++i) {
     const Frame open = hinge_frame(2 * pi * i / fingers) * Frame{{0, 0, 0}, Rotation::about(axes[1], widest)};
-    bodies.push_back(solid(beam, finger_mass, {open.to_world(mass_centre), open.rotation}));
+    bodies.push_back(solid(beam, design.finger_mass, {open.to_world(mass_centre), open.rotation}));
   }
   return bodies;
 }
@@ -65,9 +73,9 @@ Point seen_from_centre(const Point& from_hinge) { return from_hinge - mass_centr
 
 }  // namespace
 
-Gripper::Gripper(std::int32_t fingers, unsigned seed)
-    : RigidScene(Motion::Space, bodies_of(fingers, seed)), fingers_(fingers),
-      slider_(joint(MLCP_WORLD, cam_body, on_axis(cam_rest))) {
+Gripper::Gripper(std::int32_t fingers, unsigned seed, const GripperDesign& design)
+    : RigidScene(Motion::Space, bodies_of(fingers, seed, design)), fingers_(fingers), part_(part_of(design)),
+      grip_{.friction = design.friction, .stiffness = grip_stiffness}, slider_(joint(MLCP_WORLD, cam_body, on_axis(cam_rest))) {
   for (std::int32_t i = 0; i < fingers; ++i) {
     // the hinge's axis is z of the joint
     const Frame hinge = hinge_frame(2 * pi * i / fingers);
@@ -82,6 +90,12 @@ double Gripper::closed() const { return cam_rest - base().to_local(frame(cam_bod
 double Gripper::part_off_centre() const {
   const Point centre = base().to_local(frame(part_body).origin);
   return std::sqrt(centre[1] * centre[1] + centre[2] * centre[2]);
+}
+
+double Gripper::part_slid() const { return part_place - base().to_local(frame(part_body).origin)[0]; }
+
+std::vector<Scene::Measure> Gripper::measures() const {
+  return {{"part_off_centre", part_off_centre()}, {"part_slid", part_slid()}, {"closed", closed()}};
 }
 
 double Gripper::opening(std::int32_t i) const {
@@ -116,9 +130,9 @@ void Gripper::add_contacts(ContactList& contacts) const {
   for (std::int32_t i = 0; i < fingers_; ++i) {
     for (std::int32_t at = 0; at < 2; ++at) {
       const Point centre = frame(finger(i)).to_world(seen_from_centre(pad_places[at]));
-      ContactPoint touch = contact(part, frame(part_body), pad, centre);
+      ContactPoint touch = contact(part_, frame(part_body), pad, centre);
       touch.feature = at;
-      add_contact(contacts, part_body, finger(i), touch, grip);
+      add_contact(contacts, part_body, finger(i), touch, grip_);
     }
   }
 }
@@ -141,7 +155,7 @@ double Gripper::potential_energy() const {
 void Gripper::draw(Drawing& to) const {
   using Role = Drawing::Role;
   to.eye = {-0.62, -0.70, 0.36};
-  scenes::draw(to, part, frame(part_body), Role::Product);
+  scenes::draw(to, part_, frame(part_body), Role::Product);
   for (std::int32_t i = 0; i < fingers_; ++i) {
     const Frame& at = frame(finger(i));
     const auto solid_at = [&](const Point& half_extent, const Point& from_hinge, const Rotation& turn = {}) {

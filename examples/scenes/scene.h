@@ -40,6 +40,13 @@ class Scene {
   Violation violation() const;
   /// Kinetic and potential, J.
   double energy() const;
+
+  /// What the scene itself measures of what it does, at the present positions.
+  struct Measure {
+    const char* name;
+    double value;
+  };
+  virtual std::vector<Measure> measures() const { return {}; }
   /// Whether something does work on the bodies: a motor, a belt, a hand that moves a body.
   virtual bool driven() const { return false; }
 

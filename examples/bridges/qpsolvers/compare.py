@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Errors and times of mlcp and the sparse solvers of qpsolvers on programs of the Maros-Meszaros set, run by qpbenchmark.
 
-    compare.py [--solvers mlcp clarabel highs osqp piqp proxqp qpalm scs] [--programs NAME...] [--settings default high_accuracy] [--repeats 3]
+    compare.py [--solvers mlcp clarabel highs osqp piqp proxqp qpalm scs] [--programs NAME...] [--settings default high_accuracy]
 
-The error is the largest of qpsolvers' primal residual, dual residual and duality gap, which are absolute; the time the least of the repeats.
+The error is the largest of qpsolvers' primal residual, dual residual and duality gap, which are absolute; the time is that of the processor.
+OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 RAYON_NUM_THREADS=1 keep the solvers on one core.
 """
 import argparse
 import contextlib
@@ -11,28 +12,28 @@ import itertools
 import logging
 import os
 import tempfile
+import time
 import warnings
+from unittest import mock
 
 import numpy as np
+import qpbenchmark.utils
 import qpsolvers
 from maros_meszaros import MarosMeszaros
 from qpbenchmark.results import Results
 from qpbenchmark.run import run
 
 
-def measure(test_set, solvers, settings, repeats):
-    """qpbenchmark's results, a row for each program, solver and settings."""
-    times = []
-    with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings(), open(os.devnull, "w") as nowhere, contextlib.redirect_stdout(nowhere):
+def measure(test_set, solvers, settings):
+    """qpbenchmark's results, a row for each program, solver and settings, with processor time instead of its wall clock."""
+    logging.disable(logging.WARNING)
+    with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings(), open(os.devnull, "w") as nowhere, \
+            contextlib.redirect_stdout(nowhere), mock.patch.object(qpbenchmark.utils, "perf_counter", time.process_time):
         warnings.simplefilter("ignore")  # of peers, about formats and settings
-        logging.disable(logging.WARNING)
         results = Results(os.path.join(folder, "results.csv"), test_set)
-        for _ in range(repeats):
-            for solver, name in itertools.product(solvers, settings):
-                run(test_set, results, only_solver=solver, only_settings=name, rerun=True, rerun_timeouts=True)
-            frame = results.df.sort_values(["settings", "solver"], kind="stable").reset_index(drop=True)
-            times.append(frame["runtime"])
-    return frame.assign(runtime=np.min(times, axis=0))
+        for solver, name in itertools.product(solvers, settings):
+            run(test_set, results, only_solver=solver, only_settings=name)
+        return results.df
 
 
 def table_of(frame, settings, solvers):
@@ -43,15 +44,15 @@ def table_of(frame, settings, solvers):
     for name in dict.fromkeys(chosen["problem"]):
         cells = chosen[chosen["problem"] == name].set_index("solver")
         error = cells[["primal_residual", "dual_residual", "duality_gap"]].max(axis=1).where(cells["found"], np.inf)
-        time = cells["runtime"].where(np.isfinite(error), np.inf)
-        yield f"| {name} | " + " | ".join(cell(error[solver], time[solver], error.min(), time.min()) for solver in solvers) + " |"
+        seconds = cells["runtime"].where(np.isfinite(error), np.inf)
+        yield f"| {name} | " + " | ".join(cell(error[solver], seconds[solver], error.min(), seconds.min()) for solver in solvers) + " |"
 
 
-def cell(error, time, best_error, best_time):
+def cell(error, seconds, best_error, best_seconds):
     if not np.isfinite(error):
         return "–"
-    texts = [f"{error:.0e}", f"{1e3 * time:.2g} ms"]
-    return ", ".join(f"**{text}**" if best else text for text, best in zip(texts, (error == best_error, time == best_time)))
+    texts = [f"{error:.0e}", f"{1e3 * seconds:.2g} ms"]
+    return ", ".join(f"**{text}**" if best else text for text, best in zip(texts, (error == best_error, seconds == best_seconds)))
 
 
 def summary_of(frame, solvers, settings):
@@ -75,9 +76,8 @@ def main():
     parser.add_argument("--solvers", nargs="+", default=["mlcp", *sorted(set(qpsolvers.sparse_solvers) - {"mlcp"})])
     parser.add_argument("--programs", nargs="+")
     parser.add_argument("--settings", nargs="+", default=["default", "high_accuracy"])
-    parser.add_argument("--repeats", type=int, default=3)
     options = parser.parse_args()
-    frame = measure(MarosMeszaros(options.programs), options.solvers, options.settings, options.repeats)
+    frame = measure(MarosMeszaros(options.programs), options.solvers, options.settings)
     for settings in options.settings:
         print(*table_of(frame, settings, options.solvers), "", sep="\n")
     print(*summary_of(frame, options.solvers, options.settings), sep="\n")

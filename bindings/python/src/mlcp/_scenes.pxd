@@ -1,5 +1,6 @@
 """What the extension uses of the C++ scenes of examples/scenes."""
 from libcpp.memory cimport unique_ptr
+from libcpp.string cimport string
 from libcpp.vector cimport vector
 
 from mlcp._abi cimport mlcp_mask, mlcp_problem, mlcp_report, mlcp_settings, mlcp_solver
@@ -29,6 +30,10 @@ cdef extern from "scenes/scenes.h" namespace "scenes" nogil:
         vector[Action] actions
         Point eye
 
+    cdef cppclass Measure "scenes::Scene::Measure":
+        const char *name
+        double value
+
     cdef cppclass CppScene "scenes::Scene":
         void prepare(double) except +
         const mlcp_report &finish() except +
@@ -37,6 +42,7 @@ cdef extern from "scenes/scenes.h" namespace "scenes" nogil:
         const mlcp_solver *solver()
         void use(const mlcp_settings &) except +
         void draw(Drawing &) except +
+        vector[Measure] measures()
 
     cdef cppclass Film "scenes::Film":
         int steps
@@ -51,4 +57,7 @@ cdef extern from "scenes/scenes.h" namespace "scenes" nogil:
         size_t size()
         const Exhibit &operator[](size_t)
     Gallery gallery()
-    unique_ptr[CppScene] make_scene(const char *, int, unsigned) except +
+    cdef cppclass Choice "scenes::Choice":
+        string name
+        double value
+    unique_ptr[CppScene] make_scene(const char *, int, unsigned, const vector[Choice] &) except +

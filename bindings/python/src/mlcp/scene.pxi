@@ -26,6 +26,9 @@ cdef class Scene:
         Number of spheres, links, boxes or bricks.
     seed : int
         For scenes that begin at random.
+    design : mapping of str to float, optional
+        Numbers that a designer chooses, by name. Of the gripper: friction of the pads, clearance between the open pads and a part on the axis
+        (m), part_mass and finger_mass (kg). Other scenes have none.
     settings : keywords of `Solver` but `progress` and `parallel_for`
     """
     cdef unique_ptr[_scenes.CppScene] scene
@@ -33,13 +36,18 @@ cdef class Scene:
     cdef readonly double time  # of the scene, s
     cdef bint prepared, finished
 
-    def __init__(self, str name, size=None, *, unsigned seed=1, **settings):
+    def __init__(self, str name, size=None, *, unsigned seed=1, design=None, **settings):
+        cdef vector[_scenes.Choice] choices
+        cdef _scenes.Choice choice
         if name not in scenes:
             raise errors.ArgumentError(f"there is no scene {name!r}, but {', '.join(scenes)}")
         self.name = name
         self.time = 0
         cdef bytes which = name.encode()
-        self.scene = _scenes.make_scene(which, size32(scenes[name].size if size is None else size, "size"), seed)
+        for chosen_name, value in (design or {}).items():
+            choice.name, choice.value = chosen_name.encode(), value
+            choices.push_back(choice)
+        self.scene = _scenes.make_scene(which, size32(scenes[name].size if size is None else size, "size"), seed, choices)
         cdef mlcp_settings fields
         mlcp_settings_init(&fields, sizeof(mlcp_settings))
         write_settings(&fields, settings)
@@ -82,6 +90,12 @@ cdef class Scene:
         """A copy of the mask from which the step that was prepared last starts; None in the first step."""
         cdef const mlcp_mask *start = self.scene.get().start()
         return None if start is NULL else Mask.take(start)
+
+    @property
+    def measures(self):
+        """What the scene itself measures at the present positions, by name: of the gripper part_off_centre, part_slid and closed, m."""
+        measured = self.scene.get().measures()
+        return {measured[i].name.decode(): measured[i].value for i in range(measured.size())}
 
     def draw(self):
         """What there is to see at the present positions: a `Drawing`."""
