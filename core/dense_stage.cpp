@@ -39,7 +39,8 @@ bool DenseStage::solve(const SolveInput& input, const Mask* start, Watch& watch,
   result.mask.state.assign(problem.m(), MLCP_ROW_DISABLED);
   const auto cost = [&](std::int32_t c) { return 10 + std::int64_t{components.velocity_count(c)} * (components.velocity_count(c) + components.row_count(c)); };
   crew.run(count, tasks_, false, cost, [&](std::int32_t c) {
-    if (watch.look() == MLCP_SOLVED) solved_[c] = solve_island(input, start, c, result);
+    const mlcp_progress begins{sizeof(mlcp_progress), 0, 0, 0, c, count, 0};
+    if (watch.check(begins) == MLCP_SOLVED) solved_[c] = solve_island(input, start, c, result);
   });
   for (std::int32_t c = 0; c < count; ++c) {
     if (!solved_[c]) return false;

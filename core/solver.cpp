@@ -106,7 +106,10 @@ bool Solver::State::analyze(const Problem& problem, const Mask* enabled, const P
   return true;
 }
 
-void Solver::analyze(const Problem& problem, const Mask* enabled) { state_->analyze(problem, enabled); }
+void Solver::analyze(const Problem& problem, const Mask* enabled) {
+  state_->analyze(problem, enabled);
+  state_->dense.takes({problem, enabled, state_->settings});  // finds the islands, which is all that a solve of small ones needs
+}
 
 /// v = k / M where nothing couples to anything.
 void Solver::State::solve_free_velocities(const Problem& problem, const Array<std::int32_t>& free) {
@@ -370,7 +373,7 @@ void Solver::State::solve(const SolveInput& input, const Mask* start, bool again
   result.mask.key.assign(problem.key.span());
   result.mask.impulse.assign(result.gamma.span());
   fill(problem, report, counts);
-  if (report.outcome == MLCP_ITERATION_LIMIT && result.island_outcome.empty()) report.outcome = watch.stopped();
+  if (report.outcome == MLCP_ITERATION_LIMIT && result.island_outcome.empty() && watch.stopped() != MLCP_SOLVED) report.outcome = watch.stopped();
   report.warm = start != nullptr;
   report.seconds_solve = after_solve - report.seconds_analyze - counts.seconds_factorize;
   report.seconds = watch.seconds();

@@ -35,8 +35,7 @@ double form_transposed(const Weights& g, const double* b, const Weights& h, std:
 }  // namespace
 
 void ConeRows::Touched::start(std::size_t size) {
-  if (unfinished) place.assign(place.size(), -1);
-  unfinished = true;
+  finish();  // what was left when there was no memory to go on
   if (place.size() < size) place.resize(size, -1);
   index.clear();
   coefficient.clear();
@@ -44,8 +43,8 @@ void ConeRows::Touched::start(std::size_t size) {
 
 double* ConeRows::Touched::at(std::int32_t i, std::int32_t width) {
   if (place[i] < 0) {
-    place[i] = static_cast<std::int32_t>(index.size());
     index.push_back(i);
+    place[i] = static_cast<std::int32_t>(index.size()) - 1;
     for (std::int32_t k = 0; k < width; ++k) coefficient.push_back(0);
   }
   return coefficient.data() + std::size_t(place[i]) * width;
@@ -53,7 +52,6 @@ double* ConeRows::Touched::at(std::int32_t i, std::int32_t width) {
 
 void ConeRows::Touched::finish() {
   for (const std::int32_t i : index) place[i] = -1;
-  unfinished = false;
 }
 
 void ConeRows::copy_bodies(const Problem& problem) {

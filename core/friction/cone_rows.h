@@ -32,7 +32,6 @@ class ConeRows {
   struct Touched {
     Array<std::int32_t> index, place;  ///< in order; index → place or −1
     Array<double> coefficient;
-    bool unfinished = false;           ///< memory ran out between start and finish: places are left over
     explicit Touched(const Memory& m) : index(m), place(m), coefficient(m) {}
     void start(std::size_t size);
     double* at(std::int32_t i, std::int32_t width);

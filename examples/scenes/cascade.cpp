@@ -82,19 +82,20 @@ void Cascade::add_contacts(ContactList& contacts) const {
     const Frame& at = frame(body);
     centres.push_back(at.origin);
     const double half = shape(body).half_length;
-    const Sphere end = {shape(body).radius};
-    const std::int32_t places = half > 0 ? 3 : 1;
-    for (std::int32_t place = 0; place < places; ++place) {
-      const Point centre = at.to_world({0, 0, half * (place == 0 ? 0 : 2 * place - 3)});
-      std::int32_t feature = place;
-      if (place > 0 || half == 0)
-        for (const auto& [plane, material] : walls) near(MLCP_WORLD, body, contact(plane, {}, end, centre), feature += 3, material);
-      feature = place + 30;
-      for (const Tray& tray : trays) near(MLCP_WORLD, body, contact(tray.box(), tray.frame(), end, centre), feature += 3, rock);
+    std::int32_t feature = 0;
+    for (const auto& [plane, material] : walls) {
+      const std::array<ContactPoint, 2> ends = scenes::contacts(plane, {}, shape(body), at);
+      for (const ContactPoint& end : std::span(ends).first(half > 0 ? 2 : 1)) near(MLCP_WORLD, body, end, feature++, material);
+    }
+    const Sphere part = {shape(body).radius};
+    const std::array<double, 3> along = {0, -half, half};
+    for (const Tray& tray : trays) {
+      for (const double z : std::span(along).first(half > 0 ? 3 : 1))
+        near(MLCP_WORLD, body, contact(tray.box(), tray.frame(), part, at.to_world({0, 0, z})), feature++, rock);
     }
   }
   for (const auto& [a, b] : near_pairs(centres, 2 * (largest + pill_half_length) + horizon * fastest))
-    near(a, b, contact(shape(a), frame(a), shape(b), frame(b)), 0, rock);
+    for (const ContactPoint& at : scenes::contacts(shape(a), frame(a), shape(b), frame(b))) near(a, b, at, at.feature, rock);
 }
 
 void Cascade::draw(Drawing& to) const {

@@ -14,10 +14,7 @@ void ContactList::add(std::int32_t body_a, std::int32_t body_b, std::span<const 
   friction_.push_back(material.friction);
   restitution_.push_back(material.restitution);
   stiffness_.push_back(material.stiffness);
-  for (const Point& direction : directions) {
-    drive_.push_back(dot(direction, material.velocity));
-    actions_.push_back({at.point, direction});
-  }
+  for (const Point& direction : directions) actions_.push_back({at.point, direction});
   key_.push_back(row_key(body_a, body_b, at.feature));
 }
 
@@ -36,7 +33,7 @@ double ContactList::approach(std::size_t contact, std::span<const double> v) con
 
 void ContactList::add_to(const Problem& problem, double h, double stabilisation, const FrictionLaw& law, std::span<const double> v) const {
   if (gap_.empty()) return;
-  std::vector<double> r = drive_, compliance(drive_.size());
+  std::vector<double> r(gap_.size() * static_cast<std::size_t>(rows_)), compliance(r.size());
   std::vector<mlcp_friction> models(gap_.size(), law.model);
   const std::vector<std::int32_t> facets(gap_.size(), law.facets);
   for (std::size_t i = 0; i < gap_.size(); ++i) {

@@ -11,7 +11,6 @@ struct Material {
   double friction = 0;           // coefficient µ; of Coulomb's law, 0: none
   double restitution = 0;        // Newton's coefficient, of approaches faster than `slow`
   double stiffness = INFINITY;   // of the surfaces, N/m; what sticks creeps, since no step remembers how far it was pushed aside
-  Point velocity = {0, 0, 0};    // of a's surface along itself, beyond that of its body: a conveyor belt, m/s
 };
 
 struct FrictionLaw {
@@ -27,7 +26,7 @@ class ContactList {
   /// rows: a contact's, 2 in the plane and 3 in space.
   ContactList(std::int32_t dimension, std::int32_t rows) : dimension_(dimension), rows_(rows) {}
 
-  /// One contact. Of both bodies rows·dimension numbers, the normal first (ignored for MLCP_WORLD); directions: of the rows, on b;
+  /// One contact. Of both bodies rows·dimension numbers, the normal first (ignored for MLCP_WORLD); directions: of the rows, on b.
   void add(std::int32_t body_a, std::int32_t body_b, std::span<const double> jacobian_a, std::span<const double> jacobian_b,
            std::span<const Point> directions, const ContactPoint& at, const Material& material);
 
@@ -46,7 +45,6 @@ class ContactList {
   std::vector<std::int32_t> body_a_, body_b_;
   std::vector<double> jacobian_;  // 2·rows·dimension a contact: a's block, b's block
   std::vector<double> gap_, friction_, restitution_, stiffness_;
-  std::vector<double> drive_;     // phi_t of the tangent rows, `rows` a contact, the first 0
   std::vector<std::uint64_t> key_;
   std::vector<Drawing::Action> actions_;
 };

@@ -166,7 +166,7 @@ TEST_F(FailureFolderTest, MemoryThatRunsOutWhileItIsWrittenIsNoFailureOfTheSolve
   SolverHandle solver(raw);
   ASSERT_EQ(mlcp_solver_keep_failures(raw, folder.c_str(), 1), MLCP_OK);
   ASSERT_EQ(mlcp_solver_keep_failures(raw, file("missing").c_str(), 1), MLCP_OK);
-  ASSERT_EQ(solve(solver), MLCP_INFEASIBLE);
+  for (int step = 0; step < 3; ++step) ASSERT_EQ(solve(solver), MLCP_INFEASIBLE);  // what a warm solve needs is there
   ASSERT_EQ(mlcp_solver_keep_failures(raw, folder.c_str(), 1), MLCP_OK);
   for (int64_t n = 0; files() == 0; ++n) {
     ASSERT_LT(n, 1000);

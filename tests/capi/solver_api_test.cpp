@@ -192,6 +192,16 @@ TEST_F(SolverApi, MassThatIsNotPositiveDefiniteIsNamed) {
   EXPECT_EQ(report.worst_velocity, 2 + 1);
 }
 
+TEST_F(SolverApi, FreeVelocityThatOverflowsIsNotCalledSolved) {
+  ProblemHandle light = make_problem();
+  add_body(light.get(), 1, 1e-310);
+  const double k = 2;
+  ASSERT_EQ(mlcp_problem_set_momentum(light.get(), 0, 1, &k), MLCP_OK);
+  ASSERT_EQ(mlcp_solve(s, light.get(), nullptr, nullptr, &report), MLCP_OK);
+  EXPECT_EQ(report.largest_error, inf);
+  EXPECT_EQ(report.outcome, MLCP_ITERATION_LIMIT);
+}
+
 TEST_F(SolverApi, NoRedundantRowsAreLookedForAfterAnInterruption) {
   add_row(p, {0}, {1}, 7);  // as the row with key 5
   MaskHandle start = make_mask(3);

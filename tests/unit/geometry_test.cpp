@@ -78,6 +78,15 @@ TEST(Geometry, capsules_are_as_far_apart_as_their_nearest_points) {
   }
 }
 
+TEST(Geometry, capsules_side_by_side_touch_at_both_ends_of_what_they_share) {
+  const auto found = contacts(Capsule{1, 0.1}, {}, Capsule{0.5, 0.2}, {{0.31, 0, 0.75}});
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_NEAR(found[0].point[2], 0.25, 1e-12);
+  EXPECT_NEAR(found[1].point[2], 1, 1e-12);
+  for (const ContactPoint& at : found) EXPECT_NEAR(at.gap, 0.01, 1e-12);
+  EXPECT_EQ(contacts(Capsule{1, 0.1}, {}, Capsule{0.5, 0.2}, {{0.31, 0, 0}, Rotation::about(axes[0], 1)}).size(), 1u);
+}
+
 TEST(Geometry, a_box_on_a_box_touches_with_the_corners_of_the_face_they_share) {
   const Box box{{0.5, 0.5, 0.5}};
   const auto found = contacts(box, {}, box, {{0.25, 0.5, 1.01}}, 0.02);

@@ -1,6 +1,7 @@
 #include "capsule_contacts.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "sphere_contacts.h"
 
@@ -34,6 +35,20 @@ ContactPoint contact(const Capsule& a, const Frame& frame_a, const Capsule& b, c
   const double t = on_b(av + s * uv);
   s = on_a(t * uv - au);
   return contact(Sphere{a.radius}, frame_a.to_world({0, 0, s}), Sphere{b.radius}, frame_b.to_world({0, 0, t}));
+}
+
+std::vector<ContactPoint> contacts(const Capsule& a, const Frame& frame_a, const Capsule& b, const Frame& frame_b) {
+  const Point u = frame_a.axis(2), v = frame_b.axis(2), from_b = frame_a.origin - frame_b.origin;
+  const double uv = dot(u, v), reach = std::fabs(uv) * b.half_length;
+  const double low = std::max(-dot(from_b, u) - reach, -a.half_length), high = std::min(-dot(from_b, u) + reach, a.half_length);
+  if (uv * uv < 0.75 || high - low < 0.1 * b.radius) return {contact(a, frame_a, b, frame_b)};
+  std::vector<ContactPoint> ends;
+  for (const double s : {low, high}) {
+    const double t = std::clamp(dot(from_b, v) + s * uv, -b.half_length, b.half_length);
+    ends.push_back(contact(Sphere{a.radius}, frame_a.to_world({0, 0, s}), Sphere{b.radius}, frame_b.to_world({0, 0, t})));
+    ends.back().feature = static_cast<std::int32_t>(ends.size());
+  }
+  return ends;
 }
 
 }  // namespace scenes

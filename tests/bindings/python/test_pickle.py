@@ -129,3 +129,17 @@ def test_damaged_snapshots_are_refused(tmp_path):
         mlcp.dumps(ball_and_joint(), start=mlcp.Mask(7))
     with pytest.raises(TypeError):
         mlcp.loads("text")
+
+
+def test_a_solve_that_fails_leaves_a_snapshot_that_fails_again(tmp_path):
+    solver = mlcp.Solver()
+    solver.keep_failures(tmp_path, 2)
+    assert solver.solve(ball_and_joint()).status is mlcp.Outcome.SOLVED and solver.failure_file is None
+    failed = solver.solve(squeezed())
+    snapshot = mlcp.load(solver.failure_file)
+    same(snapshot.solver.solve(snapshot.problem, snapshot.start, enabled=snapshot.enabled), failed)
+    with pytest.raises(mlcp.ArgumentError, match="limit = -1"):
+        solver.keep_failures(tmp_path, -1)
+    solver.keep_failures(None)
+    solver.solve(squeezed())
+    assert solver.failure_file is None

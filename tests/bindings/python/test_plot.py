@@ -31,6 +31,36 @@ def test_sparsity_has_a_spot_for_every_entry_and_a_color_for_every_island():
     assert len(axes[0].collections[0].get_offsets()) == 4 + 2 * 2
 
 
+def test_sparsity_of_cones_is_refused():
+    problem = mlcp.Problem()
+    (block,) = problem.add_bodies(np.eye(3)[np.newaxis])
+    problem.add_contacts(body_b=[block], jacobian_b=[np.eye(3)], mu=0.5)
+    with pytest.raises(mlcp.ArgumentError, match="cones"):
+        mlcp.plot.sparsity(problem)
+    problem.set_friction(model="none")
+    assert "2 islands" not in mlcp.plot.sparsity(problem)[0].get_xlabel()
+
+
+def test_islands_are_stacked_by_state_and_the_small_ones_share_a_bar():
+    problem = mlcp.Problem.from_matrices(np.ones((60, 1, 1)), np.where(np.arange(60) % 3, -1.0, 1.0), np.eye(60))
+    result = mlcp.Solver().solve(problem)
+    axes = mlcp.plot.islands(result)
+    heights = {bars.get_label(): [bar.get_height() for bar in bars] for bars in axes.containers}
+    assert len(heights["active"]) == 40 and heights["active"][-1] + heights["at lower"][-1] == pytest.approx(1)
+    assert "60 islands, 0 not solved" in axes.get_title()
+    assert "1 not solved" in mlcp.plot.islands(mlcp.Solver().solve(squeezed())).get_title()
+
+
+def test_steps_show_warm_and_cold():
+    problem = pile(30)
+    solver = mlcp.Solver()
+    cold, warm = [solver.solve(problem)], [solver.solve(problem)]
+    axes = mlcp.plot.steps(warm, cold)
+    assert [line.get_label() for line in axes[1].lines] == ["warm", "cold"]
+    assert axes[0].lines[0].get_ydata()[0] == problem.rows
+    assert axes[1].lines[1].get_ydata()[0] == cold[0].counts.pivots
+
+
 def test_active_set_ends_as_the_solve_did():
     problem = pile(60)
     result = mlcp.Solver(method="simplex", trace=True).solve(problem)

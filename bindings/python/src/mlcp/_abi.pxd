@@ -239,6 +239,8 @@ cdef extern from "mlcp.h" nogil:
     mlcp_status mlcp_solver_get_settings(const mlcp_solver *, mlcp_settings *)
     const char *mlcp_solver_error(const mlcp_solver *)
     mlcp_status mlcp_solver_trim(mlcp_solver *)
+    mlcp_status mlcp_solver_keep_failures(mlcp_solver *, const char *, int32_t)
+    const char *mlcp_solver_failure_file(const mlcp_solver *)
 
     ctypedef struct mlcp_report:
         size_t struct_size

@@ -27,9 +27,9 @@ if TYPE_CHECKING:
 
     from ._core import Method, SolverSettings
 
-__all__ = ["active_set", "contact_forces", "scene", "sparsity", "work_precision"]
+__all__ = ["active_set", "contact_forces", "islands", "scene", "sparsity", "steps", "work_precision"]
 
-_STATE_COLORS = {RowState.DISABLED: "0.75", RowState.AT_LOWER: "white", RowState.ACTIVE: "tab:blue", RowState.AT_UPPER: "tab:orange"}
+_STATE_COLORS = {RowState.DISABLED: "0.75", RowState.AT_LOWER: "none", RowState.ACTIVE: "tab:blue", RowState.AT_UPPER: "tab:orange"}
 _FORCE_COLORS = LinearSegmentedColormap.from_list("force", ["#e0a030", "#c0392b", "#4a0d14"])
 
 
@@ -39,12 +39,14 @@ def sparsity(problem: Problem, *, enabled: Mask | None = None, axes: Sequence[Ax
     Parameters
     ----------
     problem : Problem
-        Is analyzed, not solved.
+        Is analyzed, not solved. Without cones of friction, whose rows inside are not the problem's own.
     enabled : Mask, optional
         As in `Solver.solve`.
     axes : two Axes, optional
         For K and for L.
     """
+    if {"convex", "coulomb"} & set(problem.contacts.model):
+        raise ArgumentError('problem has cones of friction: leave them out with problem.set_friction(model="none")')
     solver = Solver()
     solver.analyze(problem, enabled=enabled)
     factor = solver.factor()
@@ -80,7 +82,7 @@ def _spots(axes: Axes, factor: Factor, row: NDArray[np.int64], column: NDArray[n
     box = axes.get_window_extent()
     points_per_entry = 72 / axes.figure.dpi * min(box.width, box.height) / max(size, 1)
     axes.scatter(column, row, s=max(points_per_entry, 0.4) ** 2, c=colors, marker="s", linewidths=0)
-    axes.set(title=title, xlim=(-0.5, size - 0.5), ylim=(size - 0.5, -0.5), aspect="equal", xlabel="1 island" if len(ends) == 1 else f"{len(ends)} islands")
+    axes.set(title=title, xlim=(-0.5, max(size, 1) - 0.5), ylim=(max(size, 1) - 0.5, -0.5), aspect="equal", xlabel="1 island" if len(ends) == 1 else f"{len(ends)} islands")
 
 
 def active_set(result: Result, start: Mask | None = None, *, axes: Axes | None = None) -> Axes:
@@ -109,10 +111,72 @@ def active_set(result: Result, start: Mask | None = None, *, axes: Axes | None =
         axes = plt.subplots(figsize=(7, 5), layout="constrained")[1]
     colors = ListedColormap(list(_STATE_COLORS.values()))
     image = axes.imshow(states, cmap=colors, norm=BoundaryNorm(np.arange(-0.5, 4), 4), aspect="auto", interpolation="nearest",
-                        extent=(-0.5, len(moved) + 0.5, len(end) - 0.5, -0.5))
+                        extent=(-0.5, len(moved) + 0.5, max(len(end), 1) - 0.5, -0.5))
     bar = axes.figure.colorbar(image, ax=axes, ticks=list(_STATE_COLORS))
     bar.ax.set_yticklabels([state.name.lower().replace("_", " ") for state in _STATE_COLORS])
     axes.set(xlabel="pivot", ylabel="row", title=f"{result.counts.active_rows} of {len(end)} rows active after {len(moved)} pivots")
+    return axes
+
+
+def islands(result: Result, *, most: int = 40, axes: Axes | None = None) -> Axes:
+    """Draw how many rows every island has and in which state they ended, the largest island first.
+
+    Parameters
+    ----------
+    result : Result
+    most : int
+        So many islands get a bar of their own; the last bar is the mean of all others.
+    axes : Axes, optional
+    """
+    if axes is None:
+        axes = plt.subplots(figsize=(7, 3.5), layout="constrained")[1]
+    of_row, states = result.row_islands, np.array(result.mask.states)
+    count = result.counts.islands
+    by_state = np.array([np.bincount(of_row[(of_row >= 0) & (states == state)], minlength=count) for state in RowState]).astype(float)
+    largest_first = np.argsort(-by_state.sum(axis=0), kind="stable")
+    names, bars = [str(island) for island in largest_first], by_state[:, largest_first]
+    if count > most:
+        names = [*names[: most - 1], f"mean of {count - most + 1} others"]
+        bars = np.column_stack([bars[:, : most - 1], bars[:, most - 1 :].mean(axis=1)])
+    bottom = np.zeros(len(names))
+    for state in RowState:
+        if bars[state].any():
+            axes.bar(names, bars[state], bottom=bottom, color=_STATE_COLORS[state], edgecolor="tab:blue", linewidth=0.6,
+                     label=state.name.lower().replace("_", " "))
+            bottom += bars[state]
+    failed = sum(status != "solved" for status in result.island_status)
+    axes.set(xlabel="island", ylabel="rows", title=f"{count} island{'s' * (count != 1)}, {failed} not solved")
+    axes.tick_params(axis="x", rotation=90 if len(names) > 12 else 0)
+    axes.set_xlim(-0.6, max(len(names), 12) - 0.4)
+    if len(axes.patches):
+        axes.legend(loc="upper left", bbox_to_anchor=(1, 1), frameon=False)
+    return axes
+
+
+def steps(results: Sequence[Result], cold: Sequence[Result], *, axes: Sequence[Axes] | None = None) -> Sequence[Axes]:
+    """Draw a sequence of solves, such as the steps of a scene: rows, iterations, time and error.
+
+    Parameters
+    ----------
+    results : sequence of Result
+        Each started from the one before.
+    cold : sequence of Result
+        The same problems, started from nothing.
+    axes : four Axes, optional
+    """
+    if axes is None:
+        axes = plt.subplots(2, 2, figsize=(10, 6), sharex=True, layout="constrained")[1].ravel()
+    axes[0].plot([result.counts.enabled_rows for result in results], label="rows")
+    axes[0].plot([result.counts.active_rows for result in results], label="active")
+    for name, solves in (("warm", results), ("cold", cold)):
+        axes[1].plot([result.counts.pivots for result in solves], label=name)
+        axes[2].semilogy([1e3 * result.times.total for result in solves], label=name)
+        axes[3].semilogy([max(result.errors.largest, np.finfo(float).eps / 4) for result in solves], label=name)
+    for axis, title in zip(axes, ("rows", "iterations", "time, ms", "largest relative error")):
+        axis.set(title=title, xlabel="step")
+        axis.grid(alpha=0.3)
+        axis.legend()
+    axes[3].set_ylim(1e-17, max(1e-9, axes[3].get_ylim()[1]))
     return axes
 
 
@@ -234,7 +298,7 @@ def _faces(drawing: Drawing, view: _View) -> Iterable[_Shape]:
         size = np.linalg.norm(normal)
         if not normal @ view.eye > 1e-9 * size:
             continue
-        brightness = 0.72 + 0.28 * max(0.0, float(normal @ _LIGHT) / size)
+        brightness = 0.72 + 0.28 * max(0.0, float(normal @ _LIGHT / size))
         depth = -math.inf if role == Role.GROUND else float(corners.mean(axis=0) @ view.eye)
         yield depth, Polygon(view.flat(corners)), brightness * _ROLE_COLORS[role]
 

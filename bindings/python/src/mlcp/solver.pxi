@@ -306,6 +306,20 @@ cdef class Solver:
         self.idle()
         self.done(mlcp_solver_trim(self.handle))
 
+    def keep_failures(self, folder, int32_t limit=10):
+        """From now on a solve whose status is not "solved" leaves a snapshot in `folder`, which must be there, until `limit` of them are;
+        None: no longer. `failure_file` names it, and `mlcp.load` brings it back. A new solver begins with the folder and limit in the
+        environment variables MLCP_FAILURES and MLCP_FAILURES_LIMIT."""
+        cdef bytes name = os.fsencode(folder) if folder is not None else b""
+        self.idle()
+        self.done(mlcp_solver_keep_failures(self.handle, NULL if folder is None else <const char *>name, limit))
+
+    @property
+    def failure_file(self):
+        """The file that the last solve left for `keep_failures`, or None."""
+        self.idle()
+        return os.fsdecode(<bytes>mlcp_solver_failure_file(self.handle)) or None
+
     def __copy__(self):
         return type(self)(progress=self.progress_, parallel_for=self.parallel_for_, **self.settings)
 

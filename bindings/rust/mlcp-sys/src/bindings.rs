@@ -1367,4 +1367,12 @@ unsafe extern "C" {
         message: *mut ::core::ffi::c_char,
         message_size: usize,
     ) -> mlcp_status;
+    pub fn mlcp_solver_keep_failures(
+        solver: *mut mlcp_solver,
+        folder: *const ::core::ffi::c_char,
+        limit: i32,
+    ) -> mlcp_status;
+    pub fn mlcp_solver_failure_file(
+        solver: *const mlcp_solver,
+    ) -> *const ::core::ffi::c_char;
 }

@@ -56,8 +56,25 @@ pub(crate) struct OnProgress<'a> {
 
 #[derive(Default)]
 pub(crate) struct ParallelFor<'a> {
-    pub(crate) run: Option<ParallelRun<'a>>,
+    pub(crate) run: Option<Run<'a>>,
     panic: Option<Panic>,
+}
+
+/// Who brings the threads.
+pub(crate) enum Run<'a> {
+    Caller(ParallelRun<'a>),
+    #[cfg(feature = "rayon")]
+    Pool(fn(&(dyn Fn() + Sync))),
+}
+
+impl Run<'_> {
+    fn call(&mut self, work: &(dyn Fn() + Sync)) {
+        match self {
+            Run::Caller(run) => run(work),
+            #[cfg(feature = "rayon")]
+            Run::Pool(run) => run(work),
+        }
+    }
 }
 
 /// `Break` stops the solve.
@@ -137,7 +154,7 @@ unsafe extern "C" fn parallel_for(context: *mut c_void, count: i32, task: sys::m
     let Some(task) = task else { return };
     let tasks = Tasks { task, data, count, next: AtomicU64::new(0), workers: AtomicI32::new(0) };
     if let (Some(run), None) = (hook.run.as_mut(), &hook.panic) {
-        hook.panic = catch_unwind(AssertUnwindSafe(|| run(&|| tasks.work()))).err();
+        hook.panic = catch_unwind(AssertUnwindSafe(|| run.call(&|| tasks.work()))).err();
     }
     // what `run` left; nobody works any more, because `tasks` was only lent
     tasks.work();

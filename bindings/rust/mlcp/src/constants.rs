@@ -5,6 +5,7 @@ macro_rules! constants {
     ($(#[$doc:meta])* $name:ident, $raw:ty { $($(#[$value_doc:meta])* $value:ident = $constant:ident,)+ }) => {
         $(#[$doc])*
         #[non_exhaustive]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub enum $name {
             $($(#[$value_doc])* $value,)+

@@ -37,7 +37,8 @@ impl<'a> Factor<'a> {
 }
 
 impl Solver {
-    /// The pattern of the factor. [`Error::State`](crate::Error::State) before the first analysis or solve and after [`Solver::trim`].
+    /// The pattern of the factor. [`Error::State`](crate::Error::State) where there is none: before the first analysis or
+    /// solve, after [`Solver::trim`], and as long as [`Method::Auto`](crate::Method::Auto) has met small islands alone, which it solves without.
     ///
     /// ```
     /// # fn main() -> mlcp::Result<()> {

@@ -1,4 +1,5 @@
 #![doc = include_str!("../README.md")]
+#![cfg_attr(docsrs, feature(doc_cfg))] // docs.rs tells which feature an item needs
 #![deny(missing_docs, missing_debug_implementations)]
 #![deny(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
@@ -7,6 +8,7 @@ mod bulk;
 mod callbacks;
 mod constants;
 mod contacts;
+mod ecosystem;
 mod error;
 mod factor;
 mod library;
@@ -23,6 +25,7 @@ mod rows;
 mod settings;
 mod snapshot;
 mod solver;
+mod sparse;
 mod strided;
 pub mod timestep;
 
@@ -33,7 +36,7 @@ pub use error::{Error, Result};
 pub use factor::Factor;
 pub use library::version;
 pub use mask::{Mask, MaskRef, RowState};
-pub use matrix::{Compressed, MatrixView, Triangle};
+pub use matrix::{Compressed, MatrixView, Order, Triangle};
 pub use pivot::Pivot;
 pub use problem::Problem;
 pub use real::Real;
@@ -43,4 +46,5 @@ pub use rows::{Row, RowFields, RowFieldsMut, Rows};
 pub use settings::{Impulses, Method, PivotRule, Refactorize, Settings};
 pub use snapshot::{Recording, Snapshot};
 pub use solver::{Certificate, Solver};
+pub use sparse::SparseMatrix;
 pub use strided::{Blocks, Strided, StridedMut};

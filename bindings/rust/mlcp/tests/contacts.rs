@@ -1,7 +1,7 @@
 //! Contacts with friction: in bulk, from rows, changed, with findex; what they do, and what is refused by name.
 use mlcp::{
     Body, Compressed, Contact, ContactState, Contacts, Error, Friction, FrictionFields, Problem, RowFields, RowFieldsMut,
-    Settings, Solver, Strided, Triangle, strided,
+    Settings, Solver, SparseMatrix, Strided, Triangle, strided,
 };
 
 /// A mass point in space; velocities x, y, z.
@@ -158,9 +158,10 @@ fn a_contact_declared_over_rows_is_the_one_added_in_bulk() -> mlcp::Result<()> {
 #[test]
 fn findex_goes_in_comes_back_and_bounds_follow_the_normal_impulse() -> mlcp::Result<()> {
     let a = Compressed { pointers: &[0, 1, 2, 3], indices: &[0, 1, 2], values: &[2.0, 1.0, 1.0] };
+    let reduced = || SparseMatrix::csr(3, 3, a);
     let (r, lo, hi) = ([4.0, 5.0, -0.25], [0.0, -0.5, -0.5], [f64::INFINITY, 0.5, 0.5]);
     let fields = RowFields { r: Some(&r), lo: Some(&lo), hi: Some(&hi), ..Default::default() };
-    let mut problem = Problem::reduced(a, Triangle::Full, &fields)?;
+    let mut problem = Problem::reduced(reduced()?, Triangle::Full, &fields)?;
     problem.set_findex(1, &[0, 0])?;
     let mut findex = [9; 3];
     problem.read_findex(&mut findex)?;
@@ -170,11 +171,10 @@ fn findex_goes_in_comes_back_and_bounds_follow_the_normal_impulse() -> mlcp::Res
 
     refused(problem.set_findex(1, &[1]), "findex[0] = 1");
     refused(problem.read_findex(&mut [0]), "findex has length 1, but 3 is needed");
-    refused(Problem::reduced(a, Triangle::Full, &RowFields { r: Some(&[1.0]), ..Default::default() }), "r has length 1");
+    refused(Problem::reduced(reduced()?, Triangle::Full, &RowFields { r: Some(&[1.0]), ..Default::default() }), "r has length 1");
     let soft = RowFields { compliance: Some(&[0.0; 3]), ..Default::default() };
-    refused(Problem::reduced(a, Triangle::Full, &soft), "compliance");
-    let no_pointers = Compressed { pointers: &[], indices: &[], values: &[] };
-    refused(Problem::reduced(no_pointers, Triangle::Full, &RowFields::default()), "pointers has length 0, but 1 is needed");
+    refused(Problem::reduced(reduced()?, Triangle::Full, &soft), "compliance");
+    refused(SparseMatrix::csr(2, 2, a), "pointers has length 4, but 3 is needed");
     Ok(())
 }
 

@@ -73,3 +73,23 @@ fn damaged_snapshots_and_missing_files_are_refused_by_cause() -> mlcp::Result<()
     assert!(matches!(&error, Error::Argument(text) if text.contains("zero byte")), "{error:?}");
     Ok(())
 }
+
+#[test]
+fn a_solve_that_fails_leaves_a_snapshot_that_fails_again() -> mlcp::Result<()> {
+    let folder = std::env::temp_dir().join(format!("mlcp-failures-test-{}", std::process::id()));
+    std::fs::create_dir(&folder).unwrap();
+    let (mut problem, mut solver) = (problem()?, Solver::new()?);
+    solver.keep_failures(Some(&folder), 1)?;
+    assert!(solver.solve(&problem)?.is_solved());
+    assert_eq!(solver.failure_file(), None);
+    problem.add_row(&Row::bilateral(&[0], &[1.0]).r(1.0))?;
+    problem.add_row(&Row::bilateral(&[0], &[1.0]).r(2.0))?;
+    let report = solver.solve(&problem)?;
+    let file = solver.failure_file().expect("it failed");
+    let again = Recording::load(&file)?.replay()?;
+    std::fs::remove_dir_all(&folder).unwrap();
+    assert!(!report.is_solved());
+    assert_eq!(again.outcome, report.outcome);
+    assert!(matches!(solver.keep_failures(Some(&folder), 10_001), Err(Error::Argument(_))));
+    solver.keep_failures(None, 0)
+}

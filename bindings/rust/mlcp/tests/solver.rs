@@ -76,8 +76,9 @@ fn masks_leave_rows_out_and_tell_where_to_start() -> mlcp::Result<()> {
 
     let _ = solver.solve(&problem)?;
     let last = solver.mask()?.try_clone()?;
-    assert_eq!(solver.request(&problem).start(&last).run()?.pivots, 0);
-    assert_eq!(solver.request(&problem).start_from_last().run()?.pivots, 0);
+    // at most the one Newton step that finds nothing to change
+    assert!(solver.request(&problem).start(&last).run()?.pivots <= 1);
+    assert!(solver.request(&problem).start_from_last().run()?.pivots <= 1);
     assert_eq!(&last, &solver.mask()?.try_clone()?);
 
     let short = Mask::new(1, RowState::ACTIVE)?;

@@ -149,14 +149,14 @@ impl Problem {
     ///
     /// ```
     /// # fn main() -> mlcp::Result<()> {
-    /// use mlcp::{Compressed, Problem, RowFields, Solver, Triangle};
+    /// use mlcp::{Compressed, Problem, RowFields, Solver, SparseMatrix, Triangle};
     ///
     /// // what dSolveLCP takes, A x = b + w: a normal and a tangent row with µ = 0.5
     /// let (a, b) = ([2.0, 0.5, 0.5, 2.0], [4.0, 3.0]);
     /// let (lo, hi, findex) = ([0.0, -0.5], [f64::INFINITY, 0.5], [-1, 0]);
     /// let a = Compressed { pointers: &[0, 2, 4], indices: &[0, 1, 0, 1], values: &a };
     /// let fields = RowFields { r: Some(&b), lo: Some(&lo), hi: Some(&hi), ..RowFields::default() };
-    /// let mut problem = Problem::reduced(a, Triangle::Full, &fields)?;
+    /// let mut problem = Problem::reduced(SparseMatrix::csr(2, 2, a)?, Triangle::Full, &fields)?;
     /// problem.set_findex(0, &findex)?;
     /// let mut solver = Solver::new()?;
     /// assert!(solver.solve(&problem)?.is_solved());

@@ -4,7 +4,7 @@ use std::ptr::null_mut;
 
 use super::Problem;
 use crate::error::{Result, check};
-use crate::matrix::MatrixView;
+use crate::matrix::{MatrixView, Order};
 use crate::numbers::{check_length, int};
 use crate::rows::RowFieldsMut;
 
@@ -34,21 +34,21 @@ impl Problem {
     pub fn mass(&self) -> Result<MatrixView<'_>> {
         let view = self.view(sys::mlcp_problem_mass)?;
         // SAFETY: by columns, and unchanged while the problem is borrowed.
-        Ok(unsafe { MatrixView::new(&view, view.columns) })
+        Ok(unsafe { MatrixView::new(&view, Order::Columns) })
     }
 
     /// J, lent until the problem changes.
     pub fn jacobian(&self) -> Result<MatrixView<'_>> {
         let view = self.view(sys::mlcp_problem_jacobian)?;
         // SAFETY: by rows, and unchanged while the problem is borrowed.
-        Ok(unsafe { MatrixView::new(&view, view.rows) })
+        Ok(unsafe { MatrixView::new(&view, Order::Rows) })
     }
 
     /// Σ, lent until the problem changes.
     pub fn compliance(&self) -> Result<MatrixView<'_>> {
         let view = self.view(sys::mlcp_problem_compliance)?;
         // SAFETY: by columns, and unchanged while the problem is borrowed.
-        Ok(unsafe { MatrixView::new(&view, view.columns) })
+        Ok(unsafe { MatrixView::new(&view, Order::Columns) })
     }
 
     fn view(

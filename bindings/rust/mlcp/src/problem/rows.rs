@@ -3,7 +3,7 @@ use std::ops::Range;
 use std::ptr::null;
 
 use super::Problem;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::matrix::{Compressed, Triangle};
 use crate::numbers::{check_length, count, int};
 use crate::real::Real;
@@ -63,32 +63,6 @@ impl Problem {
             sys::mlcp_problem_rows_add_csc(raw, added, pointers, indices, values, r, lo, hi, compliance, key, &mut first)
         })?;
         Ok(range(first, rows))
-    }
-
-    /// A reduced problem: no bodies, `w = A γ − r`. A, the Delassus matrix, is m × m and symmetric; r is −b where the problem is written
-    /// `w = A z + b`. Fields with a compliance are refused, because A
-    /// stands in its place.
-    ///
-    /// ```
-    /// # fn main() -> mlcp::Result<()> {
-    /// use mlcp::{Compressed, Problem, RowFields, Solver, Triangle};
-    /// let lower = Compressed { pointers: &[0, 2, 3], indices: &[0, 1, 1], values: &[2.0, 1.0, 2.0] };
-    /// let problem = Problem::reduced(lower, Triangle::Lower, &RowFields { r: Some(&[5.0, 6.0]), ..RowFields::default() })?;
-    /// let mut solver = Solver::new()?;
-    /// assert!(solver.solve(&problem)?.is_solved());
-    /// let z = solver.impulses()?;
-    /// assert!((z[0] - 4.0 / 3.0).abs() < 1e-14 && (z[1] - 7.0 / 3.0).abs() < 1e-14);
-    /// # Ok(()) }
-    /// ```
-    pub fn reduced(a: Compressed<'_>, triangle: Triangle, fields: &RowFields<'_>) -> Result<Self> {
-        if fields.compliance.is_some() {
-            return Err(Error::Argument("compliance: a reduced problem has its matrix there".into()));
-        }
-        let mut problem = Problem::new()?;
-        let without_entries = Compressed { pointers: &vec![0; a.pointers.len()], indices: &[], values: &[] };
-        problem.add_rows_csr(without_entries, fields)?;
-        problem.set_compliance_matrix(a, triangle)?;
-        Ok(problem)
     }
 
     /// Σ as a whole, m × m and symmetric, in place of every compliance. Diagonal entries are not negative on rows with an entry of J.
