@@ -6,6 +6,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import matplotlib
+import matplotlib.ticker
 import numpy as np
 
 from compare import candidates
@@ -167,8 +168,9 @@ def picture(answers, path):
                       label=solver, zorder=3 if own else 2)
             axes.plot(*false.T, linestyle="", marker="x", markersize=8, color=colours[solver], zorder=4)
         axes.set_yscale("log")
-        if min(a.value for a in group) > 0 and not family.endswith("p"):
+        if group[0].parameter != "p":
             axes.set_xscale("log")
+            axes.xaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
         axes.set_ylim(SMALLEST / 3, 30)
         axes.set_title(family, fontsize=9)
         axes.set_xlabel(group[0].parameter, fontsize=8)
