@@ -128,7 +128,7 @@ Real contact_error(const Rows& rows, const std::vector<double>& gamma, const Con
   return scale > 0 ? defect / scale : defect;
 }
 
-/// COULOMB contacts with friction; their rows count there and not as rows.
+/// COULOMB contacts: their rows count there and not as rows; without friction there is only the normal one, which is a row like others.
 std::vector<Contact> contacts_of(const mlcp_problem* problem) {
   const std::int32_t count = mlcp_problem_contact_count(problem);
   const auto size = static_cast<std::size_t>(count);
@@ -137,7 +137,7 @@ std::vector<Contact> contacts_of(const mlcp_problem* problem) {
   check(mlcp_problem_get_contacts(problem, count, row.data(), dimension.data(), nullptr, mu.data(), nullptr));
   std::vector<Contact> contacts;
   for (std::size_t c = 0; c < size; ++c)
-    if (mu[c] > 0) contacts.push_back({static_cast<std::size_t>(row[c]), static_cast<std::size_t>(dimension[c]), mu[c]});
+    contacts.push_back({static_cast<std::size_t>(row[c]), static_cast<std::size_t>(dimension[c]), mu[c]});
   return contacts;
 }
 
@@ -179,8 +179,9 @@ double largest_error(const mlcp_problem* problem, const std::vector<double>& v, 
   Real worst = momentum_error(p, v, gamma);
   std::vector<bool> in_cone(p.m());
   for (const Contact& c : contacts_of(problem)) {
-    worst = std::max(worst, contact_error(rows, gamma, c));
+    if (c.mu > 0) worst = std::max(worst, contact_error(rows, gamma, c));
     std::fill_n(in_cone.begin() + static_cast<std::ptrdiff_t>(c.row), c.dimension, true);
+    if (c.mu == 0) in_cone[c.row] = false;
   }
   for (std::size_t i = 0; i < p.m(); ++i) {
     if (in_cone[i]) continue;
