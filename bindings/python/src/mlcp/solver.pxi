@@ -311,8 +311,11 @@ cdef class Solver:
         None: no longer. `failure_file` names it, and `mlcp.load` brings it back. A new solver begins with the folder and limit in the
         environment variables MLCP_FAILURES and MLCP_FAILURES_LIMIT."""
         cdef bytes name = os.fsencode(folder) if folder is not None else b""
+        cdef const char *path = NULL
+        if folder is not None:
+            path = name
         self.idle()
-        self.done(mlcp_solver_keep_failures(self.handle, NULL if folder is None else <const char *>name, limit))
+        self.done(mlcp_solver_keep_failures(self.handle, path, limit))
 
     @property
     def failure_file(self):
