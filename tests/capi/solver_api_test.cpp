@@ -417,7 +417,7 @@ TEST_F(SolverApi, ASolveStopsInsideAnalysisAndFactorizationToo) {
   EXPECT_GT(most, 8) << "factorizations were to be long enough to be stopped in";
   EXPECT_TRUE(patience.inside);
   const std::vector<double> undisturbed = impulses(s);
-  for (int calls = 1; calls <= most / 2; calls += calls < 8 ? 1 : most / 8) {
+  for (const int calls : {1, 2, most / 4, most / 2}) {
     SolverHandle stopped = make_solver();
     patience.give(stopped.get(), calls);
     ASSERT_EQ(mlcp_solve(stopped.get(), p, nullptr, nullptr, &report), MLCP_OK);
