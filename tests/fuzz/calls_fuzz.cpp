@@ -462,7 +462,7 @@ void Session::results() {
   const mlcp_pivot* pivots = nullptr;
   std::int32_t size = 0;
   std::int64_t steps = 0;
-  const auto use = [&](mlcp_status status, auto* data) {  // what is lent can be read to its end
+  const auto use = [&](mlcp_status status, const auto& data) {  // what is lent can be read to its end; data is looked at after the call
     look(status);
     if (status == MLCP_OK && size > 0) fuzz::require(data[size - 1] == data[size - 1] || data[size - 1] != data[size - 1], "lent memory");
   };
