@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "scenes/geometry/box_contacts.h"
+#include "scenes/geometry/sphere_contacts.h"
 #include "scenes/scenes.h"
 
 namespace scenes {
@@ -80,6 +81,66 @@ TEST(ClosedForm, a_sliding_block_stops_after_v2_over_2_mu_g_at_first_order_in_h)
     return std::fabs(block.gone() - v * v / (2 * mu * gravity));
   };
   EXPECT_NEAR(order(error, 0.02), 1, 0.25);
+}
+
+/// Discs in an upright plane of motion, each on the one below or in a groove of two walls.
+class Discs : public RigidScene {
+ public:
+  Discs(std::vector<Plane> walls, std::vector<Point> centres) : RigidScene(Motion::Upright, discs(centres)), walls_(std::move(walls)) {
+    use(tight());
+  }
+  void draw(Drawing&) const override {}
+  /// Normal forces after a step, N: the lowest disc's on each wall, then between each disc and the one above.
+  std::vector<double> forces(double h) {
+    EXPECT_EQ(step(h).outcome, MLCP_SOLVED);
+    const double* gamma = nullptr;
+    std::int32_t count = 0;
+    check(mlcp_solver_impulses(solver(), &gamma, &count));
+    std::vector<double> normal;
+    for (std::int32_t i = 0; i < count; ++i) normal.push_back(gamma[i] / h);
+    return normal;
+  }
+  static constexpr Sphere disc = {0.1};
+  static constexpr double mass = 2;  // kg
+
+ protected:
+  void add_rows(RowList& rows) const override {
+    for (const Plane& wall : walls_) add_contact(rows, MLCP_WORLD, 0, contact(wall, {}, disc, frame(0).origin));
+    for (std::int32_t i = 1; i < std::ssize(bodies()); ++i) add_contact(rows, i - 1, i, contact(disc, frame(i - 1).origin, disc, frame(i).origin));
+  }
+
+ private:
+  static std::vector<RigidBody> discs(const std::vector<Point>& centres) {
+    std::vector<RigidBody> made;
+    for (const Point& centre : centres) made.push_back(solid(disc, mass, {centre, {}}));
+    return made;
+  }
+  std::vector<Plane> walls_;
+};
+
+TEST(ClosedForm, a_disc_in_a_groove_leans_on_each_wall_as_the_triangle_of_forces_says) {
+  const double left = 0.5, right = 0.9;  // rad from the ground
+  const std::vector<Plane> walls = {{{std::sin(left), 0, std::cos(left)}}, {{-std::sin(right), 0, std::cos(right)}}};
+  // where both walls touch: n · c = radius for each
+  const double det = std::sin(left) * std::cos(right) + std::sin(right) * std::cos(left), r = Discs::disc.radius;
+  Discs scene(walls, {{r * (std::cos(right) - std::cos(left)) / det, 0, r * (std::sin(left) + std::sin(right)) / det}});
+  const std::vector<double> forces = scene.forces(0.01);
+  const double weight = Discs::mass * gravity;
+  ASSERT_EQ(forces.size(), 2u);
+  EXPECT_NEAR(forces[0], weight * std::sin(right) / std::sin(left + right), 1e-10 * weight);
+  EXPECT_NEAR(forces[1], weight * std::sin(left) / std::sin(left + right), 1e-10 * weight);
+}
+
+TEST(ClosedForm, each_disc_of_a_stack_carries_those_above) {
+  std::vector<Point> centres;
+  for (int i = 0; i < 8; ++i) centres.push_back({0, 0, Discs::disc.radius * (2 * i + 1)});
+  Discs scene({Plane{}}, centres);
+  const std::vector<double> forces = scene.forces(0.01);
+  ASSERT_EQ(forces.size(), centres.size());
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    const double above = Discs::mass * gravity * static_cast<double>(forces.size() - i);
+    EXPECT_NEAR(forces[i], above, 1e-10 * above) << i;
+  }
 }
 
 TEST(ClosedForm, legs_of_a_table_share_a_load_in_the_middle_equally) {
