@@ -105,6 +105,7 @@ def main(arguments=None):
     cluster = None if options.scheduler else dd.LocalCluster(n_workers=options.workers, threads_per_worker=1, dashboard_address=None)
     with dd.Client(options.scheduler or cluster) as client:
         print(f"{len(chosen)} designs on {len(client.scheduler_info(n_workers=-1)['workers'])} workers of {client.scheduler.address}")
+        client.upload_file(__file__)
         outcomes = sweep(client, chosen, options.steps)
     if cluster:
         cluster.close()
@@ -115,4 +116,6 @@ def main(arguments=None):
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    import sweep as module  # what tasks send must be found in a module by the workers, not in this program
+
+    sys.exit(module.main())

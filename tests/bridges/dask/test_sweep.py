@@ -1,6 +1,8 @@
 """A small sweep on a cluster of two processes on loopback: the same bits as in this process."""
 
 import csv
+import subprocess
+import sys
 
 import dask.distributed as dd
 import pytest
@@ -41,3 +43,12 @@ def test_the_program_on_a_cluster_that_runs_already(client, tmp_path, capsys):
     with open(tmp_path / "sweep.csv", newline="") as file:
         rows = list(csv.DictReader(file))
     assert [float(row["part_mass"]) for row in rows] == [0.7, 2.0] and all(len(row["digest"]) == 64 for row in rows)
+
+
+def test_the_program_as_the_readme_calls_it(tmp_path):
+    """As a program the module is __main__, which no worker has."""
+    table = tmp_path / "sweep.csv"
+    done = subprocess.run([sys.executable, sweep.__file__, "--friction", "0.2", "--clearance", "0.016", "--part-mass", "0.7", "2.0", "--steps", "5",
+                           "--workers", "1", "--csv", str(table)], capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    assert len(table.read_text().splitlines()) == 3
