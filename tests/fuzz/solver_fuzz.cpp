@@ -116,9 +116,9 @@ mlcp::Settings make_settings(Input& in) {
   return s;
 }
 
-/// Distance of (n, t) to the circular cone t ≤ c n.
+/// Distance of (n, t) to the circular cone t ≤ c n, whose edge doubles hit to rounding.
 Real distance(Real n, Real t, Real c) {
-  if (t <= c * n) return 0;
+  if (t <= c * n * (1 + 4 * std::numeric_limits<double>::epsilon())) return 0;
   if (c * t <= -n) return std::hypot(n, t);
   return (t - c * n) / std::sqrt(1 + c * c);
 }
