@@ -47,6 +47,7 @@ struct Solver::State {
   Array<double> kept;  ///< v, while a canonical answer is tried
   Errors errors;
   std::int32_t indefinite = -1;  ///< the velocity whose pivot is not positive
+  double contradiction = 0;
   bool large = false;            ///< `main` has solved the last problem, and its factors stand
 
   State(const Settings& s, const Memory& m)
@@ -92,6 +93,8 @@ void Solver::set_settings(const Settings& settings) {
   check_settings(settings);
   state_->settings = settings;
 }
+
+void Solver::allow_contradiction(double error) { state_->contradiction = error; }
 
 const Analysis& Solver::analysis() const { return state_->main.analysis; }
 std::span<const std::int32_t> Solver::ordering() const { return state_->main.analysis.ordering.order.span(); }
@@ -174,7 +177,7 @@ void Solver::State::rescue(const SolveInput& input, Watch& watch, Crew& crew, ml
   if (!any) return;
   Settings pivoting = settings;
   pivoting.method = MLCP_METHOD_SIMPLEX;
-  const SolveInput part{problem, &given_up, pivoting};
+  const SolveInput part{problem, &given_up, pivoting, input.contradiction};
   try {
     exact.analysis.run(problem, &given_up, true, {}, watch.poll());
   } catch (const Stopped&) {
@@ -388,11 +391,11 @@ void Solver::solve(const Problem& problem, const Mask* enabled, const Mask* star
   check_mask(enabled, problem, "enabled");
   check_mask(start, problem, "start");
   s.pool.resize(s.settings.parallel_for ? 1 : s.settings.num_threads > 0 ? s.settings.num_threads : static_cast<std::int32_t>(std::max(1u, std::thread::hardware_concurrency())));
-  s.solve({problem, enabled, s.settings}, start, false, report);
+  s.solve({problem, enabled, s.settings, s.contradiction}, start, false, report);
 }
 
 void Solver::solve_again(const Problem& problem, const Mask* enabled, const Mask& start, mlcp_report& report) {
-  state_->solve({problem, enabled, state_->settings}, &start, true, report);
+  state_->solve({problem, enabled, state_->settings, state_->contradiction}, &start, true, report);
 }
 
 /// The order is kept, so that the next solve gives the same bits as without.
