@@ -88,6 +88,7 @@ MUTATIONS = {
     "line search: slope of the rows": (PROXIMAL, "f -= gamma * slope[o];", "f += gamma * slope[o];"),
     "line search: whole steps": (PROXIMAL, "const double t = search(island);", "const double t = 1;"),
     "line search: curvature of the rows": (PROXIMAL, "g += slope[o] * slope[o] /", "g -= slope[o] * slope[o] /"),
+    "guess: sweeps on when the time is over": ("core/solve/gauss_seidel.cpp", " || limits_.check(counts_, 0) != MLCP_SOLVED", ""),
     "proximal: centre's sign": (PROXIMAL, "(-e * basis_.work.center[basis_.position(o)] - slack) / (sigma + e)", "(e * basis_.work.center[basis_.position(o)] - slack) / (sigma + e)"),
 }
 
