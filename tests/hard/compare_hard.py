@@ -1,4 +1,4 @@
-"""The hard cases by the peers of the benchmark, beside what the library made of them: peers.csv, table.md and hard.png. See tests/hard/run."""
+"""The hard cases by the peers of the benchmark, beside what the library made of them: peers.csv, table.md, totals.md and hard.png. See tests/hard/run."""
 import argparse
 import csv
 import re
@@ -148,14 +148,22 @@ def read(path):
             yield Answer(**line)
 
 
+def is_near(answer):
+    """By norm alone, whatever is claimed: what has no solution is right where no success is claimed."""
+    return ((answer.expected != "infeasible" and answer.norm <= REACHED)
+            or (answer.expected in ("infeasible", "either") and np.isfinite(answer.seconds) and not answer.claimed))
+
+
+def with_and_without_end(answers):
+    answers = list(answers)
+    return [a for a in answers if np.isfinite(a.seconds)], [a for a in answers if not np.isfinite(a.seconds)]
+
+
 def cell(answers):
     """How many of the cases that a peer ended it got right, how many wrong while claiming success, how many it was stopped at or not tried on."""
-    ended = [answer for answer in answers if np.isfinite(answer.seconds)]
-    right = sum((answer.expected != "infeasible" and answer.norm <= REACHED) or (answer.expected in ("infeasible", "either") and not answer.claimed)
-                for answer in ended)
-    left_out = {STOPPED: "stopped", NOT_TRIED: "not tried"}
-    counts = {text: sum(answer.note.startswith(note) for answer in answers) for note, text in left_out.items()}
-    return f"{right}/{len(ended)}" + wrong_text(ended) + "".join(f", {count} {text}" for text, count in counts.items() if count)
+    ended, others = with_and_without_end(answers)
+    counts = {text: sum(a.note.startswith(note) for a in others) for note, text in ((STOPPED, "stopped"), (NOT_TRIED, "not tried"))}
+    return f"{sum(map(is_near, ended))}/{len(ended)}" + wrong_text(ended) + "".join(f", {count} {text}" for text, count in counts.items() if count)
 
 
 def is_right(answer):
@@ -185,10 +193,21 @@ def table(answers):
             theirs = [a for a in group if a.solver == solver]
             columns.append(cell(theirs) if theirs else "")
         lines.append("| " + " | ".join(columns) + " |")
-    own = [a for a in answers if a.solver == ours]
-    totals = [f"**all {len(own)}**", "", f"{sum(map(is_right, own))}/{len(own)}" + wrong_text(own), "", "",
-              *(cell([a for a in answers if a.solver == solver]) for solver in solvers)]
-    return "\n".join([*lines, "| " + " | ".join(totals) + " |"]) + "\n"
+    return "\n".join(lines) + "\n"
+
+
+def totals(answers):
+    """A line for each solver over the cases that peers are asked."""
+    peers = [name for name in dict.fromkeys(a.solver for a in answers) if not name.startswith("libmlcp")]
+    asked = {(a.family, a.value) for a in answers if a.solver in peers}
+    lines = ["| solver | right | wrong, success claimed | neither | crashed | stopped | not tried | takes no such problem |", "|---" * 8 + "|"]
+    for solver in ["libmlcp auto", "libmlcp simplex", "libmlcp newton", *peers]:
+        ended, others = with_and_without_end(a for a in answers if a.solver == solver and (a.family, a.value) in asked)
+        right, wrong = sum(map(is_near, ended)), sum(a.wrong for a in ended)
+        left = [sum(a.note.startswith(note) for a in others) for note in (STOPPED, NOT_TRIED, DOES_NOT_FIT)]
+        counts = [right, wrong, len(ended) - right - wrong, len(others) - sum(left), *left]
+        lines.append(f"| {solver} | " + " | ".join(str(count) for count in counts) + " |")
+    return "\n".join(lines) + "\n"
 
 
 def picture(answers, path):
@@ -245,9 +264,11 @@ def main():
         answers = run(options.cases, options.families, Library(options.build / "lib" / "libmlcp_bench.so"), peers, options.limit)
         write(options.cases / "peers.csv", answers)
     text = table(answers)
+    summary = totals(answers)
     (options.cases / "table.md").write_text(text)
+    (options.cases / "totals.md").write_text(summary)
     picture(answers, options.cases / "hard.png")
-    print("\n" + text + f"\nwritten: library.csv, peers.csv, table.md, hard.png in {options.cases}")
+    print("\n" + text + "\n" + summary + f"\nwritten: library.csv, peers.csv, table.md, totals.md, hard.png in {options.cases}")
 
 
 if __name__ == "__main__":

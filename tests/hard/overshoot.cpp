@@ -1,12 +1,15 @@
-// mlcp_overshoot: how far solves run past their time limit, as a table: processor time of the solving thread, the worst of a few repeats, beside the
-// whole solve and one factorization of all islands. The promise is 10 ms and one factorization.
+// mlcp_overshoot: how far solves run past their time limit, as a table: processor time of the solving thread from the limit on, the worst of a few
+// repeats, beside the whole solve and one factorization of all islands. The promise is 10 ms and one factorization.
+#include <pthread.h>
+
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
-#include "bench/timing.h"
 #include "hard/cases/sketch.h"
 #include "scenes/scenes.h"
 
@@ -47,19 +50,37 @@ std::vector<Candidate> candidates() {
   return all;
 }
 
+double seconds_of(clockid_t clock) {
+  timespec now;
+  clock_gettime(clock, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 struct Timed {
-  double seconds;
+  double seconds, past;  ///< of the processor: in all, after the limit
   mlcp_report report;
 };
 
-/// By a new solver.
-Timed solve(const hard::Problem& problem, mlcp_settings settings) {
+/// By a new solver. watched: a second thread reads this one's processor time at the limit, which stands while others have the processor.
+Timed solve(const hard::Problem& problem, const mlcp_settings& settings, bool watched) {
   const handles::Solver solver = handles::make_solver(&settings);
   Timed timed;
   mlcp_report_init(&timed.report, sizeof timed.report);
-  const double start = bench::seconds();
+  clockid_t clock;
+  pthread_getcpuclockid(pthread_self(), &clock);
+  double at_limit = 0;
+  std::thread watch;
+  if (watched)
+    watch = std::thread([&] {
+      std::this_thread::sleep_for(std::chrono::duration<double>(settings.max_seconds));
+      at_limit = seconds_of(clock);
+    });
+  const double start = seconds_of(clock);
   handles::check(mlcp_solve(solver.get(), problem.get(), nullptr, nullptr, &timed.report), solver);
-  timed.seconds = bench::seconds() - start;
+  const double end = seconds_of(clock);
+  if (watched) watch.join();
+  timed.seconds = end - start;
+  timed.past = std::max(0.0, end - at_limit);
   return timed;
 }
 
@@ -74,8 +95,11 @@ double measure(const Candidate& candidate, mlcp_method method) {
   mlcp_settings_init(&settings, sizeof settings);
   settings.method = method;
   settings.max_seconds = longest;
-  const Timed whole = solve(candidate.problem, settings);
-  const double one = factorization(whole.report);
+  const Timed whole = solve(candidate.problem, settings, false);
+  double one = factorization(whole.report);
+  settings.max_iterations = 3;
+  for (int k = 0; k < repeats; ++k) one = std::min(one, factorization(solve(candidate.problem, settings, false).report));
+  settings.max_iterations = 0;
   std::printf("| %s | %d | %s | %s%.1f | %.2f |", candidate.name.c_str(), mlcp_problem_row_count(candidate.problem.get()), mlcp_method_text(method),
               whole.report.outcome == MLCP_TIME_LIMIT ? "> " : "", 1e3 * whole.seconds, 1e3 * one);
   double worst = 0;
@@ -84,10 +108,10 @@ double measure(const Candidate& candidate, mlcp_method method) {
     double most = 0;
     int stopped = 0;
     for (int k = 0; k < repeats; ++k) {
-      const Timed timed = solve(candidate.problem, settings);
+      const Timed timed = solve(candidate.problem, settings, true);
       if (timed.report.outcome != MLCP_TIME_LIMIT) continue;
       ++stopped;
-      most = std::max(most, timed.seconds - limit);
+      most = std::max(most, timed.past);
     }
     worst = std::max(worst, most - one);
     stopped ? std::printf(" %.2f |", 1e3 * most) : std::printf(" ended before |");
