@@ -207,7 +207,9 @@ double Slip::worst(const Problem& problem, std::size_t group, std::size_t begin,
                    std::size_t& end) const {
   double most = 0;
   for (end = begin; end < item_.size() && item_[end].first < bounds_[group + 1]; ++end) {
-    const double e = item_error(problem, item_[end], found, generators);
+    const Item& item = item_[end];
+    if (found.hopeless[item.cone >= 0 ? problem.contacts[generators.contact[item.cone]].row : problem.couplings[item.coupling].row]) continue;
+    const double e = item_error(problem, item, found, generators);
     most = e <= most ? most : e;
   }
   return most;
