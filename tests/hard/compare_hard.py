@@ -138,8 +138,7 @@ def table(answers):
         own = [a for a in group if a.solver == ours]
         solved = [a.strict for a in own if a.claimed]
         values = [a.value for a in own]
-        right = sum(a.note == a.expected or (a.expected == "either" and a.note in ("solved", "infeasible"))
-                    or (a.expected == "honest" and a.note == "solved") for a in own)
+        right = sum(a.note == a.expected or (a.expected == "either" and a.note in ("solved", "infeasible")) for a in own)
         wrong = sum(a.wrong for a in own)
         columns = [family, f"{own[0].parameter} {min(values):g} … {max(values):g}", f"{right}/{len(own)}" + (f", **{wrong} wrong**" if wrong else ""),
                    f"{max(solved):.0e}" if solved else own[0].note, f"{1e3 * max(a.seconds for a in own):.1f}"]
