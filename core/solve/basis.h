@@ -16,6 +16,9 @@ constexpr double dependent_pivot = 1e-9;
 /// has small pivots, and dropping them costs more than it saves.
 constexpr double lost_pivot = 1e-13;
 
+/// Compliance of every row, relative to aᵢ, by which an infeasible island is solved for the velocity of least violation.
+constexpr double least_violation_softness = 1e-7;
+
 /// The active set and the factor of its KKT matrix, kept in step: what every method works on.
 /// invariant, per island: a row is in the factor if and only if its state is active.
 class Basis {
