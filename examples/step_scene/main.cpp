@@ -1,5 +1,5 @@
 // Steps every scene and prints how well it goes: solved steps, overlaps, joints that drift, energy from nowhere, time.
-//   step_scene [STEPS [FOLDER]]     FOLDER: records the problem of every step there, as snapshots that `mlcp solve` reads
+//   step_scene [STEPS [FOLDER [SCENE...]]]     FOLDER: records the problem of every step there, as snapshots that `mlcp solve` reads; "-": nowhere
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -8,6 +8,7 @@
 #include <ctime>
 #include <exception>
 #include <filesystem>
+#include <span>
 #include <string_view>
 #include <system_error>
 
@@ -18,7 +19,15 @@ namespace {
 struct Options {
   int steps = 50;
   const char* folder = nullptr;  // where to record, null: nowhere
+  std::span<char*> names;        // of the scenes, empty: all
+
+  bool wants(std::string_view name) const { return names.empty() || std::find(names.begin(), names.end(), name) != names.end(); }
 };
+
+/// The size of each is that of the README's table.
+constexpr std::pair<const char*, std::int32_t> listed[] = {{"gripper", 8}, {"bottles", 24}, {"cascade", 100}, {"wall_of_boxes", 5},
+                                                           {"linkage", 1}, {"table", 1}, {"rope_over_pegs", 30}, {"pile", 300},
+                                                           {"chain", 1000}, {"rope", 1000}, {"tower", 10}, {"wall", 8}};
 
 /// What is remarkable over all steps.
 struct Record {
@@ -81,8 +90,12 @@ bool read_arguments(int argc, char** argv, Options& options) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), options.steps);
     if (error != std::errc() || end != text.data() + text.size() || options.steps < 1) return false;
   }
-  if (argc > 2) options.folder = argv[2];
-  return argc <= 3;
+  if (argc > 2 && argv[2] != std::string_view("-")) options.folder = argv[2];
+  if (argc > 3) options.names = std::span(argv + 3, argv + argc);
+  const auto known = [](std::string_view name) {
+    return std::any_of(std::begin(listed), std::end(listed), [&](const auto& scene) { return name == scene.first; });
+  };
+  return std::all_of(options.names.begin(), options.names.end(), known);
 }
 
 }  // namespace
@@ -90,16 +103,15 @@ bool read_arguments(int argc, char** argv, Options& options) {
 int main(int argc, char** argv) try {
   Options options;
   if (!read_arguments(argc, argv, options)) {
-    std::fprintf(stderr, "usage: step_scene [STEPS [FOLDER]]\n");
+    std::fprintf(stderr, "usage: step_scene [STEPS [FOLDER [SCENE...]]]\n");
     return 3;
   }
   std::printf("%-14s %5s %6s %12s %9s %9s %9s %8s %9s %10s %9s\n", "", "", "most", "steps", "overlap", "drift", "energy", "", "", "faster than", "largest");
   std::printf("%-14s %5s %6s %12s %9s %9s %9s %8s %9s %10s %9s\n", "scene", "size", "rows", "solved", "mm", "mm", "created", "pivots",
               "ms", "real time", "error");
   bool solved = true;
-  for (const auto& [name, size] : {std::pair{"gripper", 8}, {"bottles", 24}, {"cascade", 100}, {"wall_of_boxes", 5}, {"pile", 300},
-                                   {"chain", 1000}, {"rope", 1000}, {"tower", 10}, {"wall", 8}})
-    solved &= run(name, size, options);
+  for (const auto& [name, size] : listed)
+    if (options.wants(name)) solved &= run(name, size, options);
   return solved ? 0 : 1;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "step_scene: %s\n", error.what());
