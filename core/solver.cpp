@@ -157,6 +157,7 @@ void Solver::State::collect(const SolveInput& input) {
   for (std::int32_t i = 0; i < m; ++i)
     if (input.enabled && input.enabled->state[i] == MLCP_ROW_DISABLED) result.mask.state[i] = MLCP_ROW_DISABLED;
   result.gamma.assign(m, 0.0);
+  result.mask.impulse.clear();  // of the last solve, perhaps of another problem
   main.collect(problem, false, result);
 }
 
@@ -189,6 +190,7 @@ void Solver::State::rescue(const SolveInput& input, Watch& watch, Crew& crew, ml
 
 /// The answer from the active set alone: ordered, factored and solved as if nothing had been before. Kept if it is as good as what there is.
 void Solver::State::make_canonical(const SolveInput& input, Watch& watch) {
+  result.mask.impulse.clear();
   try {
     exact.analysis.run(input.problem, input.enabled, true, {}, watch.poll());
     exact.load(input, &result.mask);
