@@ -39,11 +39,17 @@ mlcp_matrix_view mass_of(const Problem& problem) {
 
 }  // namespace
 
+RowList Scene::rows_for_springs() const {
+  RowList rows = listed_rows();
+  if (!rows.all_contacts() || listed_contacts().count() > 0)
+    throw std::logic_error("springs stand for contacts without friction, not for joints, motors or friction");
+  return rows;
+}
+
 void Scene::step_by_penalty(double h, const Springs& springs) {
   std::fill(force_.begin(), force_.end(), 0.0);
   add_forces(force_);
-  listed_rows().push(springs.stiffness, springs.damping, velocity_, force_);
-  if (listed_contacts().count() > 0) throw std::logic_error("the penalty method here has no friction");
+  rows_for_springs().push(springs.stiffness, springs.damping, velocity_, force_);
   divide_by_mass(mass_of(problem_), static_cast<std::size_t>(dimension_), force_);
   for (std::size_t j = 0; j < velocity_.size(); ++j) velocity_[j] += h * force_[j];
   advance(h, velocity_);
@@ -51,7 +57,7 @@ void Scene::step_by_penalty(double h, const Springs& springs) {
 }
 
 double Scene::largest_step_by_penalty(const Springs& springs) const {
-  const RowList rows = listed_rows();
+  const RowList rows = rows_for_springs();
   const mlcp_matrix_view mass = mass_of(problem_);
   // λ, the largest eigenvalue of M⁻¹JᵀJ, by the power method; ω² = s λ
   std::vector<double> u(velocity_.size()), next(u.size());

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace scenes {
 
@@ -42,6 +41,10 @@ void RowList::add_motor(std::int32_t body_a, std::int32_t body_b, std::span<cons
   add(Role::Motor, body_a, body_b, jacobian_a, jacobian_b, speed, force, feature);
 }
 
+bool RowList::all_contacts() const {
+  return std::all_of(role_.begin(), role_.end(), [](Role role) { return role == Role::Contact; });
+}
+
 double RowList::deepest() const {
   double depth = 0;
   for (std::size_t i = 0; i < phi_.size(); ++i)
@@ -79,10 +82,8 @@ void RowList::add_multiple(std::size_t row, double s, std::span<double> y) const
 }
 
 void RowList::push(double stiffness, double damping, std::span<const double> v, std::span<double> force) const {
-  for (std::size_t i = 0; i < phi_.size(); ++i) {
-    if (role_[i] != Role::Contact) throw std::logic_error("springs stand for contacts alone, not for joints and motors");
+  for (std::size_t i = 0; i < phi_.size(); ++i)
     if (phi_[i] < 0) add_multiple(i, std::max(0.0, -stiffness * phi_[i] - damping * rate(i, v)), force);
-  }
 }
 
 void RowList::apply_normal_matrix(std::span<const double> x, std::span<double> y) const {

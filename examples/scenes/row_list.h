@@ -39,7 +39,6 @@ class RowList {
   void add_to(const Problem& problem, double h, double stabilisation) const;
 
   /// Adds the forces of springs and dampers that stand for contacts, Jᵀ max(0, −s φ − d J v) where φ < 0.
-  /// fails: std::logic_error where there are rows that are not contacts.
   void push(double stiffness, double damping, std::span<const double> v, std::span<double> force) const;
   /// y ← y + JᵀJ x
   void apply_normal_matrix(std::span<const double> x, std::span<double> y) const;
@@ -48,6 +47,7 @@ class RowList {
   void draw(Drawing& to) const { to.actions.insert(to.actions.end(), actions_.begin(), actions_.end()); }
 
   std::int32_t count() const { return static_cast<std::int32_t>(phi_.size()); }
+  bool all_contacts() const;
   double deepest() const;  // −φ of the deepest contact or limit, at least 0
   double drift() const;    // |φ| of the worst joint
 

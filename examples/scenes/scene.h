@@ -28,9 +28,8 @@ class Scene {
   struct Springs {
     double stiffness, damping;
   };
-  /// A step of the penalty method of paper (2.1) instead, to compare: forces at the present state, v⁺ = v + h M⁻¹Q, q⁺ = q + h v⁺. For scenes of
-  /// contacts without friction alone.
-  /// fails: std::logic_error where the scene has joints, motors or friction.
+  /// A step of the penalty method of paper (2.1) instead, to compare: forces at the present state, v⁺ = v + h M⁻¹Q, q⁺ = q + h v⁺.
+  /// fails: both, std::logic_error where the scene has joints, motors or friction.
   void step_by_penalty(double h, const Springs& springs);
   /// With a longer step nothing comes to rest, if all contacts listed now are closed: h = 2 (√(1 + ζ²) − ζ)/ω, ω² = s λ(M⁻¹JᵀJ) the largest, ζ = d ω/(2 s). INFINITY without contacts.
   double largest_step_by_penalty(const Springs& springs) const;
@@ -94,6 +93,8 @@ class Scene {
   double stabilisation = 0.2;
 
  private:
+  RowList rows_for_springs() const;
+
   std::int32_t dimension_, rows_of_contact_;
   FrictionLaw law_;
   Problem problem_;
