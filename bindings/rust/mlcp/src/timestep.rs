@@ -34,7 +34,13 @@ pub fn rows(h: f64, stabilisation: f64, unilateral: bool, phi: &[f64], phi_t: Op
 /// Newton's law of restitution for unilateral rows, after [`rows`]: where `φᵢ + h rateᵢ ≤ 0` and `rateᵢ < −slowest`, `rᵢ` becomes
 /// `max(rᵢ, −restitutionᵢ rateᵢ − ∂φᵢ/∂t)`. `rate`: dφ/dt before the step, m/s, that is `J v + ∂φ/∂t`; `restitution`: 0 to 1.
 pub fn restitution(
-    h: f64, slowest: f64, restitution: &[f64], phi: &[f64], rate: &[f64], phi_t: Option<&[f64]>, r: &mut [f64],
+    h: f64,
+    slowest: f64,
+    restitution: &[f64],
+    phi: &[f64],
+    rate: &[f64],
+    phi_t: Option<&[f64]>,
+    r: &mut [f64],
 ) -> Result<()> {
     check_length("restitution", restitution.len(), phi.len())?;
     check_length("rate", rate.len(), phi.len())?;
