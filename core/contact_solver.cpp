@@ -6,6 +6,7 @@
 #include <memory>
 #include <new>
 
+#include "conflicts.h"
 #include "friction/slip.h"
 #include "solve/warm_start.h"
 #include "measure/cones.h"
@@ -65,6 +66,7 @@ struct ContactSolver::State {
   Generators generators;
   ConeRows rows;
   Slip slip;
+  Conflicts conflicts;
   Measure measure;
   ConeMeasure cones;
   Mask enabled;              ///< the caller's, without the tangents of contacts that have no friction
@@ -78,7 +80,7 @@ struct ContactSolver::State {
   Errors errors;             ///< of `result`
 
   State(const Settings& s, const Memory& m)
-      : memory(m), settings(s), solver(s, m), generators(m), rows(m), slip(m), measure(m), cones(m), enabled(m), result(m),
+      : memory(m), settings(s), solver(s, m), generators(m), rows(m), slip(m), conflicts(m), measure(m), cones(m), enabled(m), result(m),
         last(&solver.result()), warm_start(m), v(m), gamma(m), scratch(m), contact_state(m), contact_facets(m) {}
 
   const Mask* enable(const Problem& problem, const Mask* mask);
@@ -89,7 +91,6 @@ struct ContactSolver::State {
   void keep(const Problem& problem, const Errors& found);
   void judge_islands(const Problem& problem);
   void take_rows(const Problem& problem);
-  void take_certificates(const Problem& problem);
   void classify(const Problem& problem, const Mask* mask, const Result& from, mlcp_report& report);
   void keep_slip(const Problem& problem);
   void fill(const Problem& problem, mlcp_report& report) const;
@@ -165,6 +166,7 @@ void ContactSolver::solve(const Problem& problem, const Mask* enabled, const Mas
 }
 
 void ContactSolver::State::solve_without(const Problem& problem, const Mask* mask, const Mask* start, mlcp_report& report) {
+  solver.allow_contradiction(0);
   solver.solve(problem, mask, start, report);
   last = &solver.result();
   classify(problem, mask, *last, report);
@@ -180,6 +182,7 @@ void ContactSolver::State::solve_with(const Problem& problem, const Mask* mask, 
   generators.start(problem, mask, settings.facets);
   rows.build(problem, mask, generators);
   slip.start(problem, start, generators, rows);
+  conflicts.start(problem);
   mlcp_report total{}, one{};
   std::int32_t shifts = 0, by_lemke = 0;
   mlcp_outcome stopped = MLCP_SOLVED;
@@ -187,6 +190,7 @@ void ContactSolver::State::solve_with(const Problem& problem, const Mask* mask, 
   errors = Errors{};
   const std::int32_t most = settings.max_shifts > 0 ? settings.max_shifts : default_shifts;
   solver.set_settings(settings);
+  solver.allow_contradiction(0.1 * settings.tolerance);  // generators of contacts that stick depend on each other by nature
   while (true) {
     // the first solve always takes place, if only to be stopped: it leaves a point
     if (shifts > 0 && (stopped = spend(total, since(begin))) != MLCP_SOLVED) break;
@@ -196,6 +200,12 @@ void ContactSolver::State::solve_with(const Problem& problem, const Mask* mask, 
       solver.solve_again(rows.inner, &rows.enabled, rows.start, one);
     accumulate(one, total);
     const Result& inner = solver.result();
+    if (one.outcome == MLCP_INFEASIBLE && spend(total, since(begin)) == MLCP_SOLVED) {
+      mlcp_report spent{};
+      conflicts.look(problem, mask, generators, rows, inner, solver.settings(), spent);
+      accumulate(total, spent);
+      total = spent;
+    }
     if (shifts++ == 0) slip.group(problem, generators, rows, inner.row_island.span());
     const double before = since(begin);
     gamma.resize(problem.m());
@@ -211,12 +221,13 @@ void ContactSolver::State::solve_with(const Problem& problem, const Mask* mask, 
     seconds_measure += since(begin) - before;
     if (stopped_from_outside(one.outcome) || shifts >= most) break;
     const Slip::Found point{measure.w.span(),     gamma.span(),                  measure.scale.span(), cones.error.span(),
-                            measure.error.span(), inner.mask.state.span(), inner.w.span()};
+                            measure.error.span(), inner.mask.state.span(), inner.w.span(), conflicts.proven()};
     if (!slip.advance(problem, point, settings.tolerance, generators, rows)) break;
     if (shifts == shifts_before_lemke)
       by_lemke = slip.fall_back(problem, mask, result.row_island.span(), point, settings.tolerance, settings.facets, generators, rows);
   }
   solver.set_settings(settings);
+  conflicts.write(result);
   classify(problem, mask, result, total);
   keep_slip(problem);
   result.mask.impulse.assign(result.gamma.span());
@@ -266,7 +277,6 @@ void ContactSolver::State::keep(const Problem& problem, const Errors& found) {
   result.w.assign(measure.w.span());
   take_rows(problem);
   result.island_outcome.assign(inner.island_outcome.span());
-  take_certificates(problem);
   judge_islands(problem);
   result.trace.assign(inner.trace.span());
   for (mlcp_pivot& pivot : result.trace) {
@@ -306,26 +316,8 @@ void ContactSolver::State::take_rows(const Problem& problem) {
   }
 }
 
-void ContactSolver::State::take_certificates(const Problem& problem) {
-  const Result& inner = solver.result();
-  result.certificates.clear();
-  result.certificate_row.clear();
-  result.certificate_y.clear();
-  for (const CertificateRange& range : inner.certificates) {
-    scratch.assign(rows.row_of.size(), 0.0);
-    for (std::int32_t e = range.first; e < range.first + range.count; ++e) scratch[inner.certificate_row[e]] = inner.certificate_y[e];
-    rows.impulses(problem, generators, scratch.span(), gamma.span());
-    const auto first = static_cast<std::int32_t>(result.certificate_row.size());
-    for (std::int32_t i = 0; i < problem.m(); ++i) {
-      if (gamma[i] == 0) continue;
-      result.certificate_row.push_back(i);
-      result.certificate_y.push_back(gamma[i]);
-    }
-    result.certificates.push_back({range.island, first, static_cast<std::int32_t>(result.certificate_row.size()) - first});
-  }
-}
-
-/// As Solver does, with the errors of cones: an error within the tolerance is a solution, whatever stopped a method on the rows inside.
+/// As Solver does, with the errors of cones: an error within the tolerance is a solution, whatever stopped a method on the rows inside. Infeasible
+/// is what has been proven, not what has no solution at the present shifts.
 void ContactSolver::State::judge_islands(const Problem& problem) {
   Array<mlcp_outcome>& outcome = result.island_outcome;
   scratch.assign(outcome.size(), 0.0);  // the worst of each island
@@ -337,9 +329,11 @@ void ContactSolver::State::judge_islands(const Problem& problem) {
   for (std::size_t c = 0; c < problem.contacts.size(); ++c) note(problem.contacts[c].row, cones.error[c]);
   const bool solved = errors.largest() <= settings.tolerance;
   for (std::size_t s = 0; s < outcome.size(); ++s) {
-    if (outcome[s] == MLCP_SOLVED && !(scratch[s] <= settings.tolerance)) outcome[s] = MLCP_ITERATION_LIMIT;
+    if (outcome[s] == MLCP_INFEASIBLE || (outcome[s] == MLCP_SOLVED && !(scratch[s] <= settings.tolerance))) outcome[s] = MLCP_ITERATION_LIMIT;
     if (outcome[s] == MLCP_ITERATION_LIMIT && solved) outcome[s] = MLCP_SOLVED;
   }
+  for (std::int32_t i = 0; i < problem.m(); ++i)
+    if (conflicts.proven()[i] && !solved) outcome[result.row_island[i]] = MLCP_INFEASIBLE;
 }
 
 /// What each contact does. Without a cone, and closed: it slides when it has no friction or a tangent row is at its bound.
@@ -393,7 +387,8 @@ void ContactSolver::State::fill(const Problem& problem, mlcp_report& report) con
   report.worst_contact = errors.worst_contact;
   if (report.outcome != MLCP_NOT_POSITIVE_DEFINITE) report.worst_velocity = errors.worst_velocity;
   const bool solved = errors.largest() <= settings.tolerance;
-  if (report.outcome == MLCP_SOLVED && !solved) report.outcome = MLCP_ITERATION_LIMIT;
+  if (report.outcome == MLCP_INFEASIBLE || (report.outcome == MLCP_SOLVED && !solved)) report.outcome = MLCP_ITERATION_LIMIT;
+  if (report.outcome == MLCP_ITERATION_LIMIT && conflicts.any() && !solved) report.outcome = MLCP_INFEASIBLE;
   if (report.outcome == MLCP_ITERATION_LIMIT && solved) report.outcome = MLCP_SOLVED;
   report.enabled_rows = report.active_rows = report.redundant_rows = report.islands_failed = 0;
   for (std::int32_t i = 0; i < problem.m(); ++i) {
@@ -416,6 +411,7 @@ void ContactSolver::trim() {
   renew(s.generators);
   renew(s.rows);
   renew(s.slip);
+  renew(s.conflicts);
   renew(s.measure);
   renew(s.cones);
   renew(s.enabled);

@@ -49,6 +49,7 @@ struct Solver::State {
   Array<double> kept;  ///< v, while a canonical answer is tried
   Errors errors;
   std::int32_t indefinite = -1;  ///< the velocity whose pivot is not positive
+  double contradiction = 0;
   bool large = false;            ///< `main` has solved the last problem, and its factors stand
 
   State(const Settings& s, const Memory& m)
@@ -96,6 +97,8 @@ void Solver::set_settings(const Settings& settings) {
   check_settings(settings);
   state_->settings = settings;
 }
+
+void Solver::allow_contradiction(double error) { state_->contradiction = error; }
 
 const Analysis& Solver::analysis() const { return state_->main.analysis; }
 std::span<const std::int32_t> Solver::ordering() const { return state_->main.analysis.ordering.order.span(); }
@@ -166,6 +169,7 @@ void Solver::State::collect(const SolveInput& input) {
   for (std::int32_t i = 0; i < m; ++i)
     if (input.enabled && input.enabled->state[i] == MLCP_ROW_DISABLED) result.mask.state[i] = MLCP_ROW_DISABLED;
   result.gamma.assign(m, 0.0);
+  result.mask.impulse.clear();  // of the last solve, perhaps of another problem
   main.collect(problem, false, result);
 }
 
@@ -182,7 +186,7 @@ void Solver::State::rescue(const SolveInput& input, Watch& watch, Crew& crew, ml
   if (!any) return;
   Settings pivoting = settings;
   pivoting.method = MLCP_METHOD_SIMPLEX;
-  const SolveInput part{problem, &given_up, pivoting};
+  const SolveInput part{problem, &given_up, pivoting, input.contradiction};
   try {
     exact.analysis.run(problem, &given_up, true, {}, watch.poll());
   } catch (const Stopped&) {
@@ -198,6 +202,7 @@ void Solver::State::rescue(const SolveInput& input, Watch& watch, Crew& crew, ml
 
 /// The answer from the active set alone: ordered, factored and solved as if nothing had been before. Kept if it is as good as what there is.
 void Solver::State::make_canonical(const SolveInput& input, Watch& watch) {
+  result.mask.impulse.clear();
   try {
     exact.analysis.run(input.problem, input.enabled, true, {}, watch.poll());
     exact.load(input, &result.mask);
@@ -419,11 +424,11 @@ void Solver::solve(const Problem& problem, const Mask* enabled, const Mask* star
   check_mask(enabled, problem, "enabled");
   check_mask(start, problem, "start");
   s.pool.resize(s.settings.parallel_for ? 1 : s.settings.num_threads > 0 ? s.settings.num_threads : static_cast<std::int32_t>(std::max(1u, std::thread::hardware_concurrency())));
-  s.solve({problem, enabled, s.settings}, start, false, report);
+  s.solve({problem, enabled, s.settings, s.contradiction}, start, false, report);
 }
 
 void Solver::solve_again(const Problem& problem, const Mask* enabled, const Mask& start, mlcp_report& report) {
-  state_->solve({problem, enabled, state_->settings}, &start, true, report);
+  state_->solve({problem, enabled, state_->settings, state_->contradiction}, &start, true, report);
 }
 
 /// The order is kept, so that the next solve gives the same bits as without.

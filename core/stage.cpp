@@ -4,6 +4,7 @@ namespace mlcp {
 
 void Stage::load(const SolveInput& input, const Mask* start) {
   basis.prepare(input.problem, analysis, input.settings);
+  basis.contradiction = input.contradiction;
   basis.set.start(input.problem, analysis.pattern, basis.values, input.enabled, start);
 }
 

@@ -114,11 +114,9 @@ void Slip::start(const Problem& problem, const Mask* mask, Generators& generator
 }
 
 void Slip::group(const Problem& problem, const Generators& generators, const ConeRows& rows, std::span<const std::int32_t> inner_island) {
-  std::int32_t islands = 0;
   for (Item& item : item_) {
     const std::int32_t row = item.cone >= 0 ? problem.contacts[generators.contact[item.cone]].row : problem.couplings[item.coupling].row;
-    item.island = std::max(0, inner_island[rows.inner_of[row]]);
-    islands = std::max(islands, item.island + 1);
+    item.island = inner_island[rows.inner_of[row]];
   }
   std::stable_sort(item_.begin(), item_.end(), [](const Item& a, const Item& b) { return a.island < b.island; });
   f_.assign(x_.span());
@@ -209,7 +207,9 @@ double Slip::worst(const Problem& problem, std::size_t group, std::size_t begin,
                    std::size_t& end) const {
   double most = 0;
   for (end = begin; end < item_.size() && item_[end].first < bounds_[group + 1]; ++end) {
-    const double e = item_error(problem, item_[end], found, generators);
+    const Item& item = item_[end];
+    if (found.hopeless[item.cone >= 0 ? problem.contacts[generators.contact[item.cone]].row : problem.couplings[item.coupling].row]) continue;
+    const double e = item_error(problem, item, found, generators);
     most = e <= most ? most : e;
   }
   return most;
@@ -237,13 +237,19 @@ std::int32_t Slip::fall_back(const Problem& problem, const Mask* enabled, std::s
   aimed_ = false;
   for (std::size_t g = 0, begin = 0, end = 0; g + 1 < bounds_.size(); ++g, begin = end) {
     if (worst(problem, g, begin, found, generators, end) <= tolerance) continue;
-    if (!lemke_.solve(problem, enabled, row_island, item_[begin].island, facets)) continue;
+    const auto contact = [&](std::size_t i) { return generators.contact[item_[i].cone]; };
+    std::size_t first = begin;
+    while (first < end && item_[first].cone < 0) ++first;
+    // islands are the same ones in every solve, their numbers are not
+    if (first == end) continue;
+    const std::int32_t island = row_island[problem.contacts[contact(first)].row];
+    if (island < 0 || !lemke_.solve(problem, enabled, row_island, island, facets)) continue;  // −1: nothing there can move
     ++islands;
-    for (std::size_t i = begin, c = 0; i < end; ++i) {
+    for (std::size_t i = first; i < end; ++i) {
       const Item& item = item_[i];
       if (item.cone < 0) continue;
       const Cone cone = generators.cone(problem, item.cone);
-      const Tangent u = lemke_.slip(problem, c++);
+      const Tangent u = lemke_.slip(problem, contact(i));
       double* x = x_.data() + item.first;
       x[0] = scalar(cone) ? cone.support(u) : u.x;
       if (!scalar(cone)) x[1] = u.y;

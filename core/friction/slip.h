@@ -24,8 +24,9 @@ class Slip {
     std::span<const double> contact_error, row_error;
     std::span<const mlcp_row_state> inner_state;
     std::span<const double> inner_w;
+    std::span<const std::uint8_t> hopeless;           ///< by caller's row: no u solves its island
   };
-  /// The next u, and `rows` for it. Islands whose errors are all within the tolerance stay as they are.
+  /// The next u, and `rows` for it. Islands whose errors are all within the tolerance, and hopeless ones, stay as they are.
   /// false: there is nothing to change.
   bool advance(const Problem& problem, const Found& found, double tolerance, Generators& generators, ConeRows& rows);
   /// Writes u into `slip`, as a mask keeps it, for the contacts that slip there: the same start is then within the tolerance at once, where w_T
@@ -44,7 +45,7 @@ class Slip {
     std::int32_t island, first;
   };
   void aim(const Problem& problem, std::int32_t cone, Tangent d, const Found& found, Generators& generators, ConeRows& rows);
-  /// The largest error of a group; `end`: behind its last item.
+  /// The largest error of a group, 0 where it is hopeless; `end`: behind its last item.
   double worst(const Problem& problem, std::size_t group, std::size_t begin, const Found& found, const Generators& generators,
                std::size_t& end) const;
   void write(const Problem& problem, const Item& item, const Found& found, Generators& generators, ConeRows& rows);

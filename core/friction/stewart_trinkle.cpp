@@ -222,10 +222,10 @@ bool StewartTrinkle::solve(const Problem& problem, const Mask* enabled, std::spa
   return true;
 }
 
-Tangent StewartTrinkle::slip(const Problem& problem, std::size_t c) const {
-  std::size_t row = 0;
-  for (std::size_t s = 0; s < c; ++s) row += problem.contacts[contact_[s]].dimension;
-  return {w_[row + 1], problem.contacts[contact_[c]].dimension == 3 ? w_[row + 2] : 0.0};
+Tangent StewartTrinkle::slip(const Problem& problem, std::int32_t contact) const {
+  const Contact& c = problem.contacts[contact];
+  const auto row = std::find(row_.begin(), row_.end(), c.row) - row_.begin();
+  return {w_[row + 1], c.dimension == 3 ? w_[row + 2] : 0.0};
 }
 
 }  // namespace mlcp

@@ -17,9 +17,8 @@ class StewartTrinkle {
   /// false: too large, rows with other bounds than 0, ∞ or none, or no solution found.
   bool solve(const Problem& problem, const Mask* enabled, std::span<const std::int32_t> row_island, std::int32_t island,
              std::int32_t facets);
-  /// Contacts with a cone in that island, and their slip.
-  std::span<const std::int32_t> contacts() const { return contact_.span(); }
-  Tangent slip(const Problem& problem, std::size_t c) const;
+  /// How a contact of that island with a cone slips.
+  Tangent slip(const Problem& problem, std::int32_t contact) const;
 
  private:
   /// An unknown ≥ 0: an impulse along up to three rows; λ of a cone has none and `cone` its γ_n, with its β behind that.

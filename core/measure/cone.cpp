@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace mlcp {
@@ -13,6 +14,14 @@ ContactVector scaled(double s, const ContactVector& a) { return {s * a.n, {s * a
 ContactVector sum(const ContactVector& a, const ContactVector& b) { return {a.n + b.n, {a.t.x + b.t.x, a.t.y + b.t.y}}; }
 ContactVector difference(const ContactVector& a, const ContactVector& b) { return {a.n - b.n, {a.t.x - b.t.x, a.t.y - b.t.y}}; }
 
+/// A power of two next to the largest of the numbers, 1 for zeros: squares of what is divided by it are in range.
+double magnitude(double x, double y, double z = 0) {
+  const double largest = std::max({std::abs(x), std::abs(y), std::abs(z)});
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  return largest > 0 ? std::ldexp(1.0, std::clamp(exponent, -1021, 1023)) : 1.0;
+}
+
 /// Angle of t in units of the pyramid's sectors, 0 … N.
 double sector_angle(Tangent t, std::int32_t facets) {
   const long double turn = std::atan2(static_cast<long double>(t.y), static_cast<long double>(t.x)) / (2 * std::numbers::pi_v<long double>);
@@ -21,7 +30,10 @@ double sector_angle(Tangent t, std::int32_t facets) {
 
 }  // namespace
 
-double length(Tangent t) { return std::sqrt(dot(t, t)); }
+double length(Tangent t) {
+  const double unit = magnitude(t.x, t.y), x = t.x / unit, y = t.y / unit;
+  return unit * std::sqrt(x * x + y * y);
+}
 
 Tangent Cone::direction(std::int32_t j) const {
   if (2 * j % facets == 0) return {j % facets == 0 ? 1.0 : -1.0, 0};
@@ -48,8 +60,9 @@ ContactVector Cone::project_circular(const ContactVector& x) const {
   const double s = mlcp::length(x.t);
   if (s <= mu * x.n) return x;
   if (mu * s <= -x.n || s == 0) return {};
-  const double n = (x.n + mu * s) / (1 + mu * mu), t = mu * n / s;
-  return {n, {t * x.t.x, t * x.t.y}};
+  const double up = mu > 1 ? 1 / mu : 1, out = mu > 1 ? 1 : mu;  // along the edge: (1, µ), or as long and in range for any µ
+  const double along = (up * x.n + out * s) / (up * up + out * out), t = out * along / s;
+  return {up * along, {t * x.t.x, t * x.t.y}};
 }
 
 /// The pyramid is symmetric about the planes through its edges and the middles of its facets, so that a point and its projection lie in the
@@ -57,9 +70,10 @@ ContactVector Cone::project_circular(const ContactVector& x) const {
 ContactVector Cone::project_sector(const ContactVector& x) const {
   const auto j = static_cast<std::int32_t>(std::floor(sector_angle(x.t, facets)));
   const Tangent d = direction(j), e = direction(j + 1);
-  const ContactVector g{1, {mu * d.x, mu * d.y}}, h{1, {mu * e.x, mu * e.y}};
+  const double up = mu > 1 ? 1 / mu : 1, out = mu > 1 ? 1 : mu;
+  const ContactVector g{up, {out * d.x, out * d.y}}, h{up, {out * e.x, out * e.y}};
   // the facet's inner normal: g × h, upwards
-  const ContactVector normal{mu * mu * (d.x * e.y - d.y * e.x), {mu * (d.y - e.y), mu * (e.x - d.x)}};
+  const ContactVector normal{out * (d.x * e.y - d.y * e.x), {up * (d.y - e.y), up * (e.x - d.x)}};
   if (dot(normal, x) >= 0) return x;
   // least squares over β ≥ 0 of |x − β g − δ h|
   const double gg = dot(g, g), gh = dot(g, h), hh = dot(h, h), gx = dot(g, x), hx = dot(h, x), determinant = gg * hh - gh * gh;
@@ -76,9 +90,12 @@ ContactVector Cone::project(const ContactVector& x) const {
 }
 
 double Cone::defect(const ContactVector& gamma, const ContactVector& w, double a) const {
-  const double size = length(gamma);
-  const double outside = a * length(difference(gamma, project(gamma))), dual = length(project(scaled(-1, w)));
-  return std::max({outside, dual, size > 0 ? std::abs(dot(gamma, w)) / size : 0.0});
+  // all of it is homogeneous in γ and in w
+  const double gamma_unit = magnitude(gamma.n, gamma.t.x, gamma.t.y), w_unit = magnitude(w.n, w.t.x, w.t.y);
+  const ContactVector g = scaled(1 / gamma_unit, gamma), u = scaled(1 / w_unit, w);
+  const double size = length(g), outside = a * (gamma_unit * length(difference(g, project(g)))), dual = w_unit * length(project(scaled(-1, u)));
+  const double power = size > 0 ? w_unit * (std::abs(dot(g, u)) / size) : 0.0;
+  return std::isnan(outside + dual + power) ? std::numeric_limits<double>::infinity() : std::max({outside, dual, power});
 }
 
 }  // namespace mlcp

@@ -177,9 +177,9 @@ bool Basis::still(const Island& island, bool widely) {
   return changed;
 }
 
-double Basis::refine(const Island& island, Counts& counts) {
+double Basis::refine(const Island& island, Counts& counts, bool from_x) {
   double error = refinement.solve(island, *pattern, values, factor, values.b.data(), values.size.data(), set.x.data(),
-                                  counts.refinements, counts.work);
+                                  counts.refinements, counts.work, from_x);
   look_at_slacks(island, counts);
   std::int32_t wrong = violations(island);
   auto point = slice(work.point.data(), island.first, island.last);

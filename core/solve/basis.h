@@ -53,8 +53,8 @@ class Basis {
 
   /// The refined point of the factor as it is; then w, and what counts as zero. A velocity that is 0 because large impulses cancel, or because
   /// rows at rest hold it there, comes out as rounding, which its own terms do not forgive: it is made 0 where the errors allow it.
-  /// returns the backward error.
-  double refine(const Island& island, Counts& counts);
+  /// from_x: see Refinement.  returns the backward error.
+  double refine(const Island& island, Counts& counts, bool from_x = false);
 
   /// w of the point, and what counts as zero.
   void look_at_slacks(const Island& island, Counts& counts);
@@ -75,6 +75,7 @@ class Basis {
   Refinement refinement;
   MassResponse response;
   Workspace work;
+  double contradiction = 0;  ///< see SolveInput
 
  private:
   bool row_moves(const Problem& problem, std::int32_t o) const;

@@ -80,7 +80,7 @@ void GaussSeidel::guess(const Island& island) {
   start(island);
   const std::int32_t rows = island.last_row - island.first_row;
   for (int s = 0; s < most_guess_sweeps; ++s)
-    if (quiet * sweep(island) <= rows && s >= fewest_sweeps) break;
+    if ((quiet * sweep(island) <= rows && s >= fewest_sweeps) || limits_.check(counts_, 0) != MLCP_SOLVED) break;
   settle(island);
 }
 

@@ -43,6 +43,12 @@ struct Slot {
   }
 };
 
+/// A struct of a later version, whose struct_size may be anything that a byte says: what stands behind it is the caller's, mostly zeros.
+template <class Struct>
+struct Later : Struct {
+  unsigned char more[256] = {};
+};
+
 class Session {
  public:
   explicit Session(Input& in) : in_(in) {}
@@ -95,7 +101,12 @@ class Session {
   T* maybe(T* pointer) {
     return in_.one_in(16) ? nullptr : pointer;
   }
-  std::size_t struct_size(std::size_t right) { return in_.one_in(24) ? static_cast<std::size_t>(in_.byte()) : right; }
+  template <class Struct>
+  void resize(Later<Struct>& s) {
+    if (!in_.one_in(24)) return;
+    s.struct_size = static_cast<std::size_t>(in_.byte());
+    s.more[0] = in_.one_in(4);
+  }
   std::ptrdiff_t stride(std::size_t unit) { return in_.one_in(3) ? static_cast<std::ptrdiff_t>(2 * unit) : 0; }
 
   mlcp_problem* problem() { return in_.one_in(40) ? nullptr : problems_[in_.byte() % problems_.size()].handle; }
@@ -146,7 +157,7 @@ class Session {
   void solve();
   void results();
   void snapshots();
-  mlcp_settings settings();
+  Later<mlcp_settings> settings();
   template <class Rows>
   void fill_rows(Rows& rows, const mlcp_problem* p);
 
@@ -165,7 +176,7 @@ void Session::objects() {
   switch (in_.integer(0, 7)) {
     case 0: return look(mlcp_problem_create(maybe(&hooks_), maybe(problems_[in_.integer(0, 1)].fresh())));
     case 1: {
-      const mlcp_settings wanted = settings();
+      const Later<mlcp_settings> wanted = settings();
       return look(mlcp_solver_create(maybe(&wanted), maybe(&hooks_), maybe(solvers_[in_.integer(0, 1)].fresh())));
     }
     case 2: return look(mlcp_mask_create(maybe(&hooks_), some(), static_cast<mlcp_row_state>(in_.integer(0, 4)), maybe(masks_[in_.integer(0, 2)].fresh())));
@@ -272,33 +283,33 @@ void Session::fill_rows(Rows& rows, const mlcp_problem* p) {
   rows.r = floats(rows.count * block);
   rows.compliance = in_.one_in(4) ? floats(rows.count * block) : nullptr;
   rows.key = keys(rows.count);
-  rows.struct_size = struct_size(sizeof rows);
+  resize(rows);
 }
 
 void Session::bulk_rows() {
   std::int32_t first = 0;
   switch (in_.integer(0, 3)) {
     case 0: return edit([&](mlcp_problem* p) {
-      mlcp_rows rows;
-      mlcp_rows_init(&rows, sizeof rows);
+      Later<mlcp_rows> rows;
+      mlcp_rows_init(&rows, sizeof(mlcp_rows));
       fill_rows(rows, p);
       return mlcp_problem_rows_add(p, maybe(&rows), maybe(&first));
     });
     case 1: return edit([&](mlcp_problem* p) {
-      mlcp_rows_f32 rows;
-      mlcp_rows_f32_init(&rows, sizeof rows);
+      Later<mlcp_rows_f32> rows;
+      mlcp_rows_f32_init(&rows, sizeof(mlcp_rows_f32));
       fill_rows(rows, p);
       return mlcp_problem_rows_add_f32(p, maybe(&rows), maybe(&first));
     });
     case 2: return edit([&](mlcp_problem* p) {
-      mlcp_contacts contacts;
-      mlcp_contacts_init(&contacts, sizeof contacts);
+      Later<mlcp_contacts> contacts;
+      mlcp_contacts_init(&contacts, sizeof(mlcp_contacts));
       fill_rows(contacts, p);
       return mlcp_problem_contacts_add(p, maybe(&contacts), maybe(&first));
     });
     default: return edit([&](mlcp_problem* p) {
-      mlcp_contacts_f32 contacts;
-      mlcp_contacts_f32_init(&contacts, sizeof contacts);
+      Later<mlcp_contacts_f32> contacts;
+      mlcp_contacts_f32_init(&contacts, sizeof(mlcp_contacts_f32));
       fill_rows(contacts, p);
       return mlcp_problem_contacts_add_f32(p, maybe(&contacts), maybe(&first));
     });
@@ -349,13 +360,13 @@ void Session::read_back() {
   const mlcp_problem* p = problem();
   std::int32_t a = 0, b = 0;
   const std::int32_t m = count(rows_of(p)), n = count(n_of(p)), contacts = count(mlcp_problem_contact_count(p));
-  mlcp_matrix_view view;
-  mlcp_matrix_view_init(&view, sizeof view);
-  view.struct_size = struct_size(sizeof view);
+  Later<mlcp_matrix_view> view;
+  mlcp_matrix_view_init(&view, sizeof(mlcp_matrix_view));
+  resize(view);
   switch (in_.integer(0, 8)) {
     case 0: return look(mlcp_problem_body_range(p, index(3), maybe(&a), maybe(&b)));
     case 1: {
-      const std::int32_t room = count(mlcp_problem_body_count(p));
+      const std::int32_t room = some();  // too little, or more than is needed
       return look(mlcp_problem_bodies(p, room, indices(room, 0), maybe(&a)));
     }
     case 2: {
@@ -406,10 +417,10 @@ void Session::masks() {
   }
 }
 
-mlcp_settings Session::settings() {
-  mlcp_settings s;
-  mlcp_settings_init(&s, sizeof s);
-  s.struct_size = struct_size(sizeof s);
+Later<mlcp_settings> Session::settings() {
+  Later<mlcp_settings> s;
+  mlcp_settings_init(&s, sizeof(mlcp_settings));
+  resize(s);
   s.method = in_.integer(0, in_.one_in(20) ? 5 : 3);
   s.pivot_rule = in_.integer(0, 1);
   s.refactorize = in_.one_in(4);
@@ -428,20 +439,20 @@ mlcp_settings Session::settings() {
 void Session::solve() {
   mlcp_solver* s = solver();
   const mlcp_problem* p = problem();
-  mlcp_report report;
-  mlcp_report_init(&report, sizeof report);
-  report.struct_size = struct_size(sizeof report);
+  Later<mlcp_report> report;
+  mlcp_report_init(&report, sizeof(mlcp_report));
+  resize(report);
   const mlcp_mask* start = mask();
   if (in_.one_in(4)) static_cast<void>(mlcp_solver_mask(s, &start));
   switch (in_.integer(0, 5)) {
     case 0: return look(mlcp_analyze(s, p, mask()));
     case 1: return look(mlcp_solver_trim(s));
     case 2: {
-      const mlcp_settings wanted = settings();
+      const Later<mlcp_settings> wanted = settings();
       return look(mlcp_solver_set_settings(s, maybe(&wanted)));
     }
     case 3: {
-      mlcp_settings found = settings();
+      Later<mlcp_settings> found = settings();
       return look(mlcp_solver_get_settings(s, maybe(&found)));
     }
     default: {
@@ -490,9 +501,9 @@ void Session::results() {
       return look(v ? mlcp_solver_read_velocities_f32(s, many, out, gap) : mlcp_solver_read_impulses_f32(s, many, out, gap));
     }
     default: {
-      mlcp_factor_view view;
-      mlcp_factor_view_init(&view, sizeof view);
-      view.struct_size = struct_size(sizeof view);
+      Later<mlcp_factor_view> view;
+      mlcp_factor_view_init(&view, sizeof(mlcp_factor_view));
+      resize(view);
       return look(mlcp_solver_factor(s, maybe(&view)));
     }
   }

@@ -116,9 +116,9 @@ mlcp::Settings make_settings(Input& in) {
   return s;
 }
 
-/// Distance of (n, t) to the circular cone t ≤ c n.
+/// Distance of (n, t) to the circular cone t ≤ c n, whose edge doubles hit to rounding.
 Real distance(Real n, Real t, Real c) {
-  if (t <= c * n) return 0;
+  if (t <= c * n * (1 + 4 * std::numeric_limits<double>::epsilon())) return 0;
   if (c * t <= -n) return std::hypot(n, t);
   return (t - c * n) / std::sqrt(1 + c * c);
 }
@@ -169,7 +169,8 @@ void apply_friction(const mlcp::Problem& p, const Vector& gamma, Dense& d) {
     for (int i = c.row + 1; i < c.row + c.dimension; ++i) {
       if (c.model == MLCP_FRICTION_NONE || !d.enabled[c.row]) d.enabled[i] = false;
       if (c.model != MLCP_FRICTION_FINDEX) continue;
-      d.hi[i] = c.mu * std::max(gamma[c.row], Real(0));
+      // as doubles: a row that nothing moves measures its impulse by the largest a, which may be 1e13 times what one rounding is
+      d.hi[i] = static_cast<double>(c.mu * std::max(gamma[c.row], Real(0)));
       d.lo[i] = -d.hi[i];
     }
 }

@@ -1,10 +1,11 @@
-// mlcp_hard_table FOLDER: every hard case by every method, a line each in FOLDER/library.csv, and the case itself as a snapshot for others.
+// mlcp_hard_table FOLDER: every hard case by every method, a line each in FOLDER/library.csv, and the case itself, without prescribed
+// bodies, as a snapshot for others.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 
-#include "hard/cases/case.h"
+#include "hard/cases/sketch.h"
 #include "hard/solution.h"
 
 namespace {
@@ -39,7 +40,8 @@ void write(const std::filesystem::path& folder) {
       const hard::Case c = family.make(value);
       const mlcp_problem* problem = c.problem.get();
       const std::string snapshot = std::to_string(number++) + ".mlcp";
-      handles::check(mlcp_snapshot_save((folder / snapshot).c_str(), problem, nullptr, nullptr, nullptr, nullptr, 0));
+      const hard::Problem plain = hard::with_given_velocities_in_r(c.problem);
+      handles::check(mlcp_snapshot_save((folder / snapshot).c_str(), plain.get(), nullptr, nullptr, nullptr, nullptr, 0));
       for (const mlcp_method method : methods) {
         hard::Solution s = solve(problem, method);
         double seconds = s.report.seconds;

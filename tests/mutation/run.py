@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Breaks the ratio test and the row toggles on purpose, one place at a time, and expects the unit and property tests to notice.
+"""Breaks ratio test, row toggles, the dense factor and Newton's steps on purpose, one place at a time, and expects the unit and property tests to
+notice.
 
-    tests/mutation/run.py BUILD_FOLDER [NAME...]      a copy of the tree is made and built there; names: only those mutations
+    tests/mutation/run.py BUILD_FOLDER [NAME...] [--jobs N]      a copy of the tree is made and built there; names: only those mutations
 
-Prints a line for each and ends with "N passed, N failed"; a mutation that survives is a failure: it needs a test.
+Prints a line for each and ends with "N passed, N failed"; a mutation that survives is a failure: it needs a test. About half a minute each.
 """
 import argparse
 import os
@@ -11,9 +12,13 @@ import pathlib
 import shutil
 import subprocess
 import sys
+import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RATIO, FACTOR, KERNELS, BASIS = ("core/solve/ratio_test.cpp", "core/factorize/factor.cpp", "core/factorize/kernel_loops.h", "core/solve/basis.cpp")
+LDL, RESPONSE, DENSE_NEWTON = ("core/factorize/dense_ldl.h", "core/factorize/dense_response.cpp", "core/solve/dense_newton.cpp")
+NEWTON, PROXIMAL = ("core/solve/newton.cpp", "core/solve/proximal.cpp")
+TESTS = ("unit_tests", "property_tests")
 
 # name: file, text that stands there exactly once, what takes its place
 MUTATIONS = {
@@ -50,34 +55,76 @@ MUTATIONS = {
     "basis: a removal is not made": (BASIS, "fresh = factor.remove(position(f.o), counts.work) != FactorStatus::ok;", ""),
     "basis: an insertion is not made": (BASIS, "const FactorStatus status = factor.insert(position(f.o), counts.work, drop);", "const FactorStatus status = FactorStatus::ok;"),
     "basis: a row that leaves keeps its impulse": (BASIS, "  rest(o, to);\n", "  set.state[o] = to;\n"),
+    "dense factor: pivot without its row": (LDL, "d -= l * r[q];", ""),
+    "dense factor: row of L not divided": (LDL, "r[q] = l;", ""),
+    "dense factor: last entry left out": (LDL, "dot(r + from, row(q) + from, q - from)", "dot(r + from, row(q) + from, q - from - 1)"),
+    "dense forward: sign": (LDL, "x[p] -= dot(row(p) + from", "x[p] += dot(row(p) + from"),
+    "dense backward: sign": (LDL, "x[q] -= r[q] * t", "x[q] += r[q] * t"),
+    "dense response: compliance forgotten": (RESPONSE, "if (const std::int32_t j = local_[problem.n() + sigma.indices[t]]; j >= 0)", "if (const std::int32_t j = -1; j >= 0)"),
+    "dense response: given velocity forgotten": (RESPONSE, "r -= given;", ""),
+    "dense response: row ends early": (RESPONSE, "if (y[p] != 0) end = p + 1;", "if (y[p] != 0) end = p;"),
+    "dense response: dependent rows stay": (RESPONSE, "> drop * s.response(i, i)) s.member[kept++] = i;", "> -infinity) s.member[kept++] = i;"),
+    "dense response: impulses at rest": (RESPONSE, "x[t] -= s.response(s.member[t], j) * s.gamma[j];", "x[t] += s.response(s.member[t], j) * s.gamma[j];"),
+    "dense response: pivot of a row outside": (RESPONSE, "pivot -= x[t] * (x[t] * s.active.inverse[t]);", "pivot += x[t] * (x[t] * s.active.inverse[t]);"),
+    "dense response: velocities": (RESPONSE, "s.x[p] += y[p] * s.gamma[i];", "s.x[p] -= y[p] * s.gamma[i];"),
+    "dense correction: of the impulses": (RESPONSE, "g[t] -= y[p] * (v[p] * s.mass.inverse[p]);", "g[t] += y[p] * (v[p] * s.mass.inverse[p]);"),
+    "dense correction: of the velocities": (RESPONSE, "v[p] += y[p] * g[t];", "v[p] -= y[p] * g[t];"),
+    "dense Newton: leaves to the other bound": (DENSE_NEWTON, "rest(i, s_.gamma[i] < s_.lo[i] ?", "rest(i, s_.gamma[i] > s_.lo[i] ?"),
+    "dense Newton: upper bounds never passed": (DENSE_NEWTON, "if (s_.gamma[i] >= s_.lo[i] && s_.gamma[i] <= s_.hi[i]) continue;", "if (s_.gamma[i] >= s_.lo[i]) continue;"),
+    "dense Newton: lower bounds never left": (DENSE_NEWTON, "s_.state[i] == ActiveSet::at_lower ? w < -zero", "s_.state[i] == ActiveSet::at_lower ? false"),
+    "dense Newton: upper bounds never left": (DENSE_NEWTON, "s_.state[i] == ActiveSet::at_upper ? w > zero", "s_.state[i] == ActiveSet::at_upper ? false"),
+    "dense Newton: dependent rows counted as active": (DENSE_NEWTON, "if (*s_.members < wanted) {", "if (false) {"),
+    "dense Newton: no impulse at rest": (DENSE_NEWTON, "s_.gamma[i] = -ActiveSet::resting_x(to, s_.lo[i], s_.hi[i]);", "s_.gamma[i] = 0;"),
+    "Newton: whole steps only": (NEWTON, "if (share > 0) flips = proximal_.largest", "if (false) flips = proximal_.largest"),
+    "Newton: share never smaller": (NEWTON, "      ++share;\n", ""),
+    "Newton: patience without an end": (NEWTON, "} else if (--left < 0) {\n      return Ending::stuck;", "} else if (false) {\n      return Ending::stuck;"),
+    "Newton: point not looked at again": (NEWTON, "if (finish(island) == Ending::settled) return Ending::settled;\n    if (flips_.empty())", "return Ending::settled;\n    if (flips_.empty())"),
+    "Newton: violated rows without impulse pass": (NEWTON, "error <= refined && empty_rows_hold(island) ?", "error <= refined ?"),
+    "Newton: start lost when it gives up": (NEWTON, "  if (ending != Ending::settled) {\n    basis_.values.regularise(*basis_.pattern, island, 0, 0);\n    go_back(island);", "  if (ending != Ending::settled) {\n    go_back(island);"),
+    "partial step: the least instead of the most": (PROXIMAL, "return da > db ||", "return da < db ||"),
+    "flips: below the lower bound": (PROXIMAL, "if (gamma < k.lo[o]) flips[count++] = {o, ActiveSet::at_lower};", ""),
+    "flips: beyond the upper bound": (PROXIMAL, "if (gamma > k.hi[o]) flips[count++] = {o, ActiveSet::at_upper};", ""),
+    "flips: slack at the upper bound": (PROXIMAL, "state == ActiveSet::at_upper ? w > zero", "state == ActiveSet::at_upper ? w < -zero"),
+    "line search: slope of the rows": (PROXIMAL, "f -= gamma * slope[o];", "f += gamma * slope[o];"),
+    "line search: whole steps": (PROXIMAL, "const double t = search(island);", "const double t = 1;"),
+    "line search: curvature of the rows": (PROXIMAL, "g += slope[o] * slope[o] /", "g -= slope[o] * slope[o] /"),
+    "guess: sweeps on when the time is over": ("core/solve/gauss_seidel.cpp", " || limits_.check(counts_, 0) != MLCP_SOLVED", ""),
+    "proximal: centre's sign": (PROXIMAL, "(-e * basis_.work.center[basis_.position(o)] - slack) / (sigma + e)", "(e * basis_.work.center[basis_.position(o)] - slack) / (sigma + e)"),
 }
 
 
+
 def copy_tree(work: pathlib.Path) -> None:
-    """The files that git knows, as they are now."""
+    """The files that git knows, as they are now, and no others. Times are those of the copy: a mutant that a killed run left is built anew."""
     names = subprocess.run(["git", "ls-files", "-z", "core", "capi", "cmake", "examples", "tests", "CMakeLists.txt", "CMakePresets.json", "VERSION", "mlcp.pc.in", "LICENSE"],
                            cwd=ROOT, check=True, capture_output=True, text=True).stdout.split("\0")
+    known = {work / name for name in names if name}
+    for folder in ("core", "capi", "examples", "tests"):
+        for target in (work / folder).rglob("*"):
+            if target.is_file() and target not in known:
+                target.unlink()
     for name in filter(None, names):
         source, target = ROOT / name, work / name
         if not source.is_file() or (target.is_file() and target.read_bytes() == source.read_bytes()):
             continue
         target.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy2(source, target)
+        shutil.copyfile(source, target)
 
 
-def build(work: pathlib.Path) -> bool:
-    command = ["cmake", "--build", work / "build", "-j", str(os.cpu_count()), "--target", "unit_tests", "property_tests"]
+def build(work: pathlib.Path, jobs: int) -> bool:
+    command = ["cmake", "--build", work / "build", "-j", str(jobs), "--target", *TESTS]
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if done.returncode:
         print(done.stdout[-3000:])
     return done.returncode == 0
 
 
-def noticed(work: pathlib.Path) -> bool:
+def noticed(work: pathlib.Path, most_seconds: float) -> bool:
     """By a test that fails, a crash or a run without end."""
-    for tests in ("unit_tests", "property_tests"):
+    for tests in TESTS:
         try:
-            done = subprocess.run([work / "build" / "bin" / tests, "--gtest_fail_fast", "--gtest_brief=1"], cwd=work / "build", capture_output=True, timeout=900)
+            done = subprocess.run([work / "build" / "bin" / tests, "--gtest_fail_fast", "--gtest_brief=1"], cwd=work / "build", capture_output=True,
+                                  timeout=most_seconds)
         except subprocess.TimeoutExpired:
             return True
         if done.returncode:
@@ -85,7 +132,7 @@ def noticed(work: pathlib.Path) -> bool:
     return False
 
 
-def survives(work: pathlib.Path, name: str) -> str:
+def survives(work: pathlib.Path, name: str, jobs: int, most_seconds: float) -> str:
     """"" if the tests notice it, else what is wrong."""
     file, old, new = MUTATIONS[name]
     target = work / file
@@ -94,9 +141,9 @@ def survives(work: pathlib.Path, name: str) -> str:
         return f"{file} has its text {text.count(old)} times: bring the list up to date"
     target.write_text(text.replace(old, new))
     try:
-        if not build(work):
+        if not build(work, jobs):
             return "does not compile"
-        return "" if noticed(work) else "survives"
+        return "" if noticed(work, most_seconds) else "survives"
     finally:
         target.write_text(text)
 
@@ -105,20 +152,28 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build_folder", type=pathlib.Path)
     parser.add_argument("names", nargs="*", metavar="NAME")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N", help="of the build [all processors]")
     arguments = parser.parse_args()
     if unknown := [name for name in arguments.names if name not in MUTATIONS]:
         parser.error(f"no such mutation: {', '.join(unknown)}")
     work = arguments.build_folder.resolve()
     copy_tree(work)
+    # the examples are there for the scenes that tests use
     configure = ["cmake", "-S", work, "-B", work / "build", "-DCMAKE_BUILD_TYPE=Release", "-DMLCP_BUILD_TESTS=ON", "-DMLCP_BUILD_EXAMPLES=ON", "-DMLCP_INSTALL=OFF"]
-    subprocess.run([*configure, *(["-G", "Ninja"] if shutil.which("ninja") else [])], check=True, stdout=subprocess.DEVNULL)
-    if not build(work) or noticed(work):
+    configure += ["-G", "Ninja"] if shutil.which("ninja") else []
+    configure += ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache", "-DCMAKE_C_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
+    subprocess.run(configure, check=True, stdout=subprocess.DEVNULL)
+    if not build(work, arguments.jobs):
+        return 1
+    start = time.monotonic()
+    if noticed(work, 3600):
         print("the tests fail without any mutation")
         return 1
+    most_seconds = 30 + 3 * (time.monotonic() - start)
     failed = 0
     names = arguments.names or list(MUTATIONS)
     for name in names:
-        fault = survives(work, name)
+        fault = survives(work, name, arguments.jobs, most_seconds)
         failed += bool(fault)
         print(f"{name}: {fault or 'noticed'}", flush=True)
     print(f"{len(names) - failed} passed, {failed} failed")

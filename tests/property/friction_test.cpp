@@ -357,6 +357,88 @@ TEST(Friction, squeezed_contact_is_infeasible_with_a_certificate_in_the_callers_
   EXPECT_GT(gap, 0);
 }
 
+/// A unit mass between walls that close in on it, with friction on both and pulled along them.
+mlcp::Problem between_closing_walls(const Eigen::Vector2d& k) {
+  mlcp::Problem p = empty_problem();
+  add_body(p, 2, 1);
+  set_k(p, k);
+  std::vector<std::int32_t> row;
+  for (const double side : {1.0, -1.0}) {
+    row.push_back(p.m());
+    add_row(p, {{0, side}}, 1);
+    add_row(p, {{1, 1}});
+  }
+  const std::vector<double> mu(2, 0.5);
+  mlcp::contacts_declare(p, 2, 2, row.data(), {nullptr, mu.data(), nullptr, nullptr});
+  return p;
+}
+
+/// No slip resolves a conflict of normals, so that a look at them ends the iteration, and what proves it has no tangents.
+TEST(Friction, normals_in_conflict_end_the_iteration_at_once) {
+  mlcp::ContactSolver solver(mlcp::default_settings(), mlcp::Memory());
+  for (const double pull : {0.0, 0.7}) {
+    const Solved s = solve_contacts(solver, between_closing_walls({0, pull}));
+    EXPECT_EQ(s.report.outcome, MLCP_INFEASIBLE);
+    EXPECT_EQ(s.report.shift_iterations, 1);
+    const mlcp::Result& r = solver.result();
+    ASSERT_EQ(r.certificate_row.size(), 2u);
+    EXPECT_EQ(r.certificate_row[0], 0);
+    EXPECT_EQ(r.certificate_row[1], 2);
+    EXPECT_EQ(r.certificate_y[0], r.certificate_y[1]);
+    EXPECT_GT(r.certificate_y[0], 0);
+  }
+}
+
+TEST(Friction, plain_rows_in_conflict_beside_a_contact_end_the_iteration_at_once) {
+  mlcp::Problem p = block(-1, 4, 0.5);
+  add_row(p, {{1, 1}}, 1, bilateral);
+  add_row(p, {{1, 2}}, 5, bilateral);
+  mlcp::ContactSolver solver(mlcp::default_settings(), mlcp::Memory());
+  const Solved s = solve_contacts(solver, p);
+  EXPECT_EQ(s.report.outcome, MLCP_INFEASIBLE);
+  EXPECT_EQ(s.report.shift_iterations, 1);
+  ASSERT_EQ(solver.result().certificate_row.size(), 2u);
+  EXPECT_EQ(solver.result().certificate_row[0], 2);
+  EXPECT_EQ(solver.result().certificate_row[1], 3);
+}
+
+/// The island in conflict waits for the others.
+TEST(Friction, a_conflict_spoils_no_other_island) {
+  mlcp::Problem p = between_closing_walls({0, 0});
+  add_body(p, 2, 2);
+  set_k(p, Eigen::Vector4d(0, 0, -1, 4));
+  const std::int32_t row = p.m();
+  add_row(p, {{2, 1}});
+  add_row(p, {{3, 1}});
+  const double mu = 0.5;
+  mlcp::contacts_declare(p, 1, 2, &row, {nullptr, &mu, nullptr, nullptr});
+  mlcp::ContactSolver solver(mlcp::default_settings(), mlcp::Memory());
+  const Solved s = solve_contacts(solver, p);
+  EXPECT_EQ(s.report.outcome, MLCP_INFEASIBLE);
+  EXPECT_EQ(s.report.islands_failed, 1);
+  EXPECT_LT(s.report.shift_iterations, 20);
+  EXPECT_NEAR(s.v[2], 0, 1e-12);
+  EXPECT_NEAR(s.v[3], (4 - mu) / 2, 1e-9);
+}
+
+/// A body held fast on a belt that runs below it: without a shift the rows inside contradict each other, and yet there is a solution.
+TEST(Friction, what_conflicts_without_a_shift_alone_is_solved) {
+  mlcp::Problem p = empty_problem();
+  add_body(p, 2, 1);
+  set_k(p, Eigen::Vector2d(-1, 0));
+  add_row(p, {{0, 1}});
+  add_row(p, {{1, 1}}, 1);  // the belt
+  add_row(p, {{0, 1}}, 0, bilateral);
+  add_row(p, {{1, 1}}, 0, bilateral);
+  const std::int32_t row = 0;
+  const double mu = 0.5;
+  mlcp::contacts_declare(p, 1, 2, &row, {nullptr, &mu, nullptr, nullptr});
+  const Solved s = solve_contacts(p);
+  EXPECT_EQ(s.report.outcome, MLCP_SOLVED);
+  EXPECT_NEAR(s.v[0], 0, 1e-12);
+  EXPECT_NEAR(s.v[1], 0, 1e-12);
+}
+
 TEST(Friction, work_limit_counts_all_solves) {
   Random random(17);
   const mlcp::Problem p = random_contacts(random, 4, 4, 3, 0.4, MLCP_FRICTION_COULOMB);

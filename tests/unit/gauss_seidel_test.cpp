@@ -75,5 +75,18 @@ TEST(GaussSeidel, ImpulsesOfTheStartMaskSaveSweeps) {
   EXPECT_GT(cold.report.pivots, 0);
 }
 
+/// A sweep over a large island takes long enough: no more of them once the time is over.
+TEST(GaussSeidel, AGuessEndsWithTheTime) {
+  Random random(3);
+  const mlcp::Problem p = random_chain(random, 200, 3, 1);
+  mlcp::Settings how = mlcp::default_settings();
+  how.method = MLCP_METHOD_NEWTON;
+  EXPECT_GT(solve(p, how).report.pivots, 10);
+  how.max_seconds = 1e-12;
+  const Solution s = solve(p, how);
+  EXPECT_EQ(s.report.outcome, MLCP_TIME_LIMIT);
+  EXPECT_LE(s.report.pivots, s.report.islands);
+}
+
 }  // namespace
 }  // namespace support

@@ -118,6 +118,31 @@ TEST(Threads, CallersParallelForRunsTheTasksInItsOwnOrder) {
   EXPECT_GT(seen.tasks, 1);
 }
 
+/// Three threads that take tasks as they come.
+void run_on_threads(void*, std::int32_t count, mlcp_task task, void* data) {
+  std::atomic<std::int32_t> next = 0;
+  std::vector<std::thread> threads;
+  for (std::int32_t worker = 0; worker < 3; ++worker)
+    threads.emplace_back([&, worker] {
+      for (std::int32_t index; (index = next++) < count;) task(data, index, worker);
+    });
+  for (std::thread& thread : threads) thread.join();
+}
+
+/// For the thread sanitizer.
+TEST(Threads, CallersParallelForMayHaveThreads) {
+  const mlcp::Problem p = islands(60);
+  for (const mlcp_method method : {MLCP_METHOD_SIMPLEX, MLCP_METHOD_NEWTON, MLCP_METHOD_AUTO}) {
+    mlcp::Settings how = mlcp::default_settings();
+    how.method = method;
+    const Solution one = solve(p, how);
+    how.parallel_for = run_on_threads;
+    const Solution s = solve(p, how);
+    EXPECT_EQ(s.v, one.v) << method;
+    EXPECT_EQ(s.gamma, one.gamma) << method;
+  }
+}
+
 TEST(Threads, CertificatesOfSeveralIslands) {
   mlcp::Problem p = islands(20);
   for (const int island : {3, 12, 17}) {

@@ -1,5 +1,7 @@
 #include "hard/cases/sketch.h"
 
+#include <algorithm>
+
 namespace hard {
 
 using handles::check;
@@ -52,25 +54,82 @@ void Sketch::compliance(std::int32_t rows, const std::vector<double>& dense) {
   check(mlcp_problem_set_compliance_matrix(problem_.get(), rows, pointers.data(), indices.data(), dense.data(), MLCP_FULL), problem_);
 }
 
+namespace {
+
+/// The rows of a problem.
+struct RowNumbers {
+  mlcp_matrix_view jacobian;
+  std::vector<double> r, lo, hi;
+
+  explicit RowNumbers(const Problem& problem) : r(static_cast<std::size_t>(mlcp_problem_row_count(problem.get()))), lo(r), hi(r) {
+    mlcp_matrix_view_init(&jacobian, sizeof jacobian);
+    check(mlcp_problem_jacobian(problem.get(), &jacobian));
+    check(mlcp_problem_get_rows(problem.get(), jacobian.rows, r.data(), lo.data(), hi.data(), nullptr, nullptr));
+  }
+};
+
+/// Given velocities by column, 0 elsewhere; whether they are.
+struct GivenVelocities {
+  std::vector<double> value;
+  std::vector<bool> given;
+
+  explicit GivenVelocities(const Problem& problem)
+      : value(static_cast<std::size_t>(mlcp_problem_velocity_count(problem.get()))), given(value.size()) {
+    std::int32_t count = 0;
+    check(mlcp_problem_bodies(problem.get(), 0, nullptr, &count));
+    std::vector<std::int32_t> ids(static_cast<std::size_t>(count));
+    check(mlcp_problem_bodies(problem.get(), count, ids.data(), &count));
+    for (const std::int32_t id : ids) {
+      std::int32_t offset = 0, dimension = 0, prescribed = 0;
+      check(mlcp_problem_body_range(problem.get(), id, &offset, &dimension));
+      check(mlcp_problem_body_state(problem.get(), id, &prescribed, dimension, value.data() + offset));
+      std::fill_n(given.begin() + offset, dimension, prescribed != 0);
+    }
+  }
+};
+
+}  // namespace
+
 Problem with_rows(const Problem& problem, const std::vector<double>& scale, int copies) {
   Problem changed = handles::clone(problem);
-  const std::int32_t m = mlcp_problem_row_count(problem.get());
-  mlcp_matrix_view jacobian;
-  mlcp_matrix_view_init(&jacobian, sizeof jacobian);
-  check(mlcp_problem_jacobian(problem.get(), &jacobian));
-  std::vector<double> r(static_cast<std::size_t>(m)), lo(r), hi(r);
-  check(mlcp_problem_get_rows(problem.get(), m, r.data(), lo.data(), hi.data(), nullptr, nullptr));
+  const RowNumbers rows(problem);
   check(mlcp_problem_rows_clear(changed.get()), changed);
   for (int copy = 0; copy < copies; ++copy)
-    for (std::int32_t i = 0; i < m; ++i) {
-      const double s = scale[static_cast<std::size_t>(i) % scale.size()];
-      const std::int32_t first = jacobian.pointers[i], count = jacobian.pointers[i + 1] - first;
-      std::vector<double> values(jacobian.values + first, jacobian.values + first + count);
+    for (std::size_t i = 0; i < rows.r.size(); ++i) {
+      const double s = scale[i % scale.size()];
+      const std::int32_t first = rows.jacobian.pointers[i], count = rows.jacobian.pointers[i + 1] - first;
+      std::vector<double> values(rows.jacobian.values + first, rows.jacobian.values + first + count);
       for (double& x : values) x *= s;
-      check(mlcp_problem_row_add(changed.get(), count, jacobian.indices + first, values.data(), s * r[static_cast<std::size_t>(i)],
-                                 lo[static_cast<std::size_t>(i)] / s, hi[static_cast<std::size_t>(i)] / s, 0, 0, nullptr),
+      check(mlcp_problem_row_add(changed.get(), count, rows.jacobian.indices + first, values.data(), s * rows.r[i], rows.lo[i] / s, rows.hi[i] / s, 0, 0,
+                                 nullptr),
             changed);
     }
+  return changed;
+}
+
+Problem with_given_velocities_in_r(const Problem& problem) {
+  const RowNumbers rows(problem);
+  const GivenVelocities v(problem);
+  Problem changed = handles::clone(problem);
+  if (std::find(v.given.begin(), v.given.end(), true) == v.given.end()) return changed;
+  check(mlcp_problem_rows_clear(changed.get()), changed);
+  for (std::size_t i = 0; i < rows.r.size(); ++i) {
+    std::vector<std::int32_t> columns;
+    std::vector<double> values;
+    double r = rows.r[i];
+    for (std::int32_t t = rows.jacobian.pointers[i]; t < rows.jacobian.pointers[i + 1]; ++t) {
+      const std::int32_t j = rows.jacobian.indices[t];
+      if (v.given[static_cast<std::size_t>(j)]) {
+        r -= rows.jacobian.values[t] * v.value[static_cast<std::size_t>(j)];
+      } else {
+        columns.push_back(j);
+        values.push_back(rows.jacobian.values[t]);
+      }
+    }
+    check(mlcp_problem_row_add(changed.get(), static_cast<std::int32_t>(columns.size()), columns.data(), values.data(), r, rows.lo[i], rows.hi[i], 0, 0,
+                               nullptr),
+          changed);
+  }
   return changed;
 }
 

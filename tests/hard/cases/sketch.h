@@ -44,4 +44,7 @@ class Sketch {
 /// The same problem with every row as `change` leaves it: entries and r times scale[i], and each row `copies` times.
 Problem with_rows(const Problem& problem, const std::vector<double>& scale, int copies);
 
+/// The same problem for solvers that know no prescribed velocities: r carries them, and no row touches those bodies. Diagonal Σ is not kept.
+Problem with_given_velocities_in_r(const Problem& problem);
+
 }  // namespace hard
