@@ -5,10 +5,8 @@
 namespace mlcp {
 namespace {
 
-constexpr double zero = 1e-12;
-
 /// In extended precision: what underflows in double is not 0.
-bool vanishes(long double sum, double size) { return std::abs(sum) <= static_cast<long double>(zero) * size; }
+bool vanishes(long double sum, double size, double zero) { return std::abs(sum) <= static_cast<long double>(zero) * size; }
 
 }  // namespace
 
@@ -27,7 +25,7 @@ void CertificateCheck::trim() {
 }
 
 bool CertificateCheck::holds(const Problem& problem, const Mask* enabled, std::span<const std::int32_t> row,
-                             std::span<const double> y) {
+                             std::span<const double> y, double zero) {
   const std::lock_guard turn(turn_);
   const SparseView jacobian = problem.jacobian_view(), sigma = problem.compliance_view();
   sum_.assign(std::max(problem.n(), problem.m()), 0.0L);
@@ -52,8 +50,8 @@ bool CertificateCheck::holds(const Problem& problem, const Mask* enabled, std::s
     }
   }
   for (std::int32_t j = 0; j < problem.n(); ++j)
-    if (!vanishes(sum_[j], size_[j])) return false;
-  if (!(static_cast<double>(gap) > zero * gap_size)) return false;
+    if (!vanishes(sum_[j], size_[j], zero)) return false;
+  if (!(static_cast<double>(gap) > allowed * gap_size)) return false;
 
   sum_.assign(problem.m(), 0.0L);
   size_.assign(problem.m(), 0.0);
@@ -64,7 +62,7 @@ bool CertificateCheck::holds(const Problem& problem, const Mask* enabled, std::s
       size_[sigma.indices[t]] += std::abs(static_cast<double>(term));
     }
   for (std::int32_t i = 0; i < problem.m(); ++i)
-    if ((!enabled || enabled->state[i] != MLCP_ROW_DISABLED) && !vanishes(sum_[i], size_[i])) return false;
+    if ((!enabled || enabled->state[i] != MLCP_ROW_DISABLED) && !vanishes(sum_[i], size_[i], zero)) return false;
   return true;
 }
 

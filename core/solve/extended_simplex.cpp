@@ -11,6 +11,8 @@ constexpr double dependent = 0x1p14 * extended_epsilon, no_share = 0x1p30 * exte
 /// Velocities and impulses up to this, relative to the largest of the island in terms of energy, are rounding.
 constexpr double rounding = 0x1p20 * extended_epsilon;
 constexpr int refinements = 2;
+/// What a proof may leave of Jᵀy, relative to its terms: the product of two angles that doubles can tell from 0 is more.
+constexpr double proven = 0x1p24 * extended_epsilon;
 
 }  // namespace
 
@@ -80,6 +82,7 @@ mlcp_outcome ExtendedSimplex::start(Limits& limits, Counts& counts) {
   tableau_.load(island_, pattern, basis_->values);
   const std::int32_t size = tableau_.size();
   x_.assign(size, 0);
+  step_.resize(size);
   rhs_.resize(size);
   image_.resize(size);
   a_.resize(island_.last_row - island_.first_row);
@@ -132,17 +135,48 @@ std::int32_t ExtendedSimplex::entering_row() {
   return chosen;
 }
 
+/// Change of x when the impulse of row k moves by `sign`, refined against K.  true: no velocity moves, which the pivot, a square, cannot tell.
+bool ExtendedSimplex::find_still_step(std::int32_t k, int sign, Counts& counts) {
+  const KktPattern& pattern = *basis_->pattern;
+  const KktValues& values = basis_->values;
+  const std::int32_t size = tableau_.size(), first = island_.first;
+  for (std::int32_t p = 0; p < size; ++p) step_[p] = tableau_.in(p) ? sign * tableau_(p, position(k)) : Extended{0};
+  step_[position(k)] = -sign;
+  refine(nullptr, step_.data(), counts);
+  // M dv against |J|ᵀ|y|, in terms of energy
+  for (std::int32_t p = 0; p < size; ++p) rhs_[p] = image_[p] = 0;
+  for (std::int32_t p = 0; p < size; ++p) {
+    if (pattern.is_row(first + p)) continue;
+    rhs_[p] += values.diagonal[first + p] * step_[p];
+    for (std::int32_t t = pattern.lower_pointers[first + p]; t < pattern.lower_pointers[first + p + 1]; ++t) {
+      const std::int32_t q = pattern.lower_rows[t] - first;
+      if (pattern.is_row(first + q)) continue;
+      rhs_[p] += values.lower[t] * step_[q];
+      rhs_[q] += values.lower[t] * step_[p];
+    }
+  }
+  for (std::int32_t o = island_.first_row; o < island_.last_row; ++o)
+    for (std::int32_t t = pattern.row_pointers[o]; t < pattern.row_pointers[o + 1]; ++t)
+      image_[pattern.row_columns[t] - first] += magnitude(values.row[t] * step_[position(o)]);
+  Extended moved = 0, pushed = 0;
+  for (std::int32_t p = 0; p < size; ++p) {
+    if (pattern.is_row(first + p)) continue;
+    moved = std::max(moved, rhs_[p] * rhs_[p] / values.diagonal[first + p]);
+    pushed = std::max(pushed, image_[p] * image_[p] / values.diagonal[first + p]);
+  }
+  return moved <= proven * proven * pushed;
+}
+
 /// y = change of the impulses when that of row k moves: nothing blocks it and no velocity feels it.
-bool ExtendedSimplex::certify(const SolveInput& input, std::int32_t k, int sign, Extended terms) {
-  const auto add = [&](std::int32_t o, Extended y) {
+bool ExtendedSimplex::certify(const SolveInput& input, std::int32_t k, int sign, Extended terms, Counts& counts) {
+  if (!find_still_step(k, sign, counts)) return false;
+  certificate_rows_ = 0;
+  for (std::int32_t o = island_.first_row; o < island_.last_row; ++o) {
+    if (o != k && !moves(o, k, terms)) continue;
     const std::int32_t at = island_.first_row + certificate_rows_++;
     basis_->work.certificate_row[at] = basis_->pattern->node[basis_->position(o)] - input.problem.n();
-    basis_->work.certificate_y[at] = static_cast<double>(y);
-  };
-  certificate_rows_ = 0;
-  add(k, sign);
-  for (std::int32_t j = island_.first_row; j < island_.last_row; ++j)
-    if (moves(j, k, terms)) add(j, sign * share(j, k));
+    basis_->work.certificate_y[at] = -static_cast<double>(step_[position(o)]);
+  }
   const auto part = [&](auto& array) { return array.span().subspan(island_.first_row, certificate_rows_); };
   check_.prepare(input.problem);
   if (check_.holds(input.problem, input.enabled, part(basis_->work.certificate_row), part(basis_->work.certificate_y))) return true;
@@ -176,7 +210,7 @@ mlcp_outcome ExtendedSimplex::treat(const SolveInput& input, std::int32_t k, Lim
       if (moves(j, k, sum)) block(j, sign * share(j, k));
     if (blocking < 0 && !arrives) {
       rest(k, static_cast<ActiveSet::State>(basis_->set.state[k]));
-      if (magnitude(w) > forgiven) return certify(input, k, sign, sum) ? MLCP_INFEASIBLE : MLCP_ITERATION_LIMIT;
+      if (magnitude(w) > forgiven) return certify(input, k, sign, sum, counts) ? MLCP_INFEASIBLE : MLCP_ITERATION_LIMIT;
       basis_->set.defer(k);  // what the tolerance forgives stays violated
       find_point(counts);
       return MLCP_SOLVED;
@@ -193,24 +227,24 @@ mlcp_outcome ExtendedSimplex::treat(const SolveInput& input, std::int32_t k, Lim
   }
 }
 
-/// Against K itself: forming Schur complements has squared the angles.
-void ExtendedSimplex::refine(Counts& counts) {
+/// K x = b (NULL: 0) on what is in, with the rest of x as it is; against K itself, since Schur complements have squared the angles.
+void ExtendedSimplex::refine(const double* b, Extended* x, Counts& counts) {
   const KktPattern& pattern = *basis_->pattern;
   const KktValues& values = basis_->values;
   const std::int32_t size = tableau_.size(), first = island_.first;
   for (int step = 0; step < refinements; ++step) {
-    for (std::int32_t p = 0; p < size; ++p) rhs_[p] = values.b[first + p] - values.diagonal[first + p] * x_[p];
+    for (std::int32_t p = 0; p < size; ++p) rhs_[p] = (b ? b[first + p] : 0) - values.diagonal[first + p] * x[p];
     for (std::int32_t p = 0; p < size; ++p)
       for (std::int32_t t = pattern.lower_pointers[first + p]; t < pattern.lower_pointers[first + p + 1]; ++t) {
         const std::int32_t q = pattern.lower_rows[t] - first;
-        rhs_[p] -= values.lower[t] * x_[q];
-        rhs_[q] -= values.lower[t] * x_[p];
+        rhs_[p] -= values.lower[t] * x[q];
+        rhs_[q] -= values.lower[t] * x[p];
       }
     for (std::int32_t p = 0; p < size; ++p)
       if (!tableau_.in(p)) rhs_[p] = 0;
     tableau_.multiply(rhs_.data(), image_.data());
     for (std::int32_t p = 0; p < size; ++p)
-      if (tableau_.in(p)) x_[p] -= image_[p];
+      if (tableau_.in(p)) x[p] -= image_[p];
     counts.work += static_cast<std::int64_t>(size) * size;
     ++counts.refinements;
   }
@@ -238,7 +272,7 @@ mlcp_outcome ExtendedSimplex::run(const SolveInput& input, Limits& limits, Count
   if (const mlcp_outcome outcome = start(limits, counts); outcome != MLCP_SOLVED) return outcome;
   for (std::int32_t k = entering_row(); k >= 0; k = entering_row())
     if (const mlcp_outcome outcome = treat(input, k, limits, counts); outcome != MLCP_SOLVED) return outcome;
-  refine(counts);
+  refine(basis_->values.b.data(), x_.data(), counts);
   still();
   round();
   for (std::int32_t o = island_.first_row; o < island_.last_row; ++o) {
@@ -264,7 +298,7 @@ mlcp_outcome ExtendedSimplex::solve(const SolveInput& input, const Island& islan
 
 void ExtendedSimplex::trim() {
   tableau_.trim();
-  for (Array<Extended>* a : {&x_, &rhs_, &image_, &a_}) {
+  for (Array<Extended>* a : {&x_, &step_, &rhs_, &image_, &a_}) {
     a->clear();
     a->trim();
   }

@@ -11,7 +11,7 @@ namespace mlcp {
 /// Rounding its answer to double leaves a rounding in every term of every equation, which is what the errors are relative to.
 class ExtendedSimplex {
  public:
-  explicit ExtendedSimplex(const Memory& m) : tableau_(m), x_(m), rhs_(m), image_(m), a_(m), check_(m) {}
+  explicit ExtendedSimplex(const Memory& m) : tableau_(m), x_(m), step_(m), rhs_(m), image_(m), a_(m), check_(m) {}
 
   /// Small enough for a dense matrix.
   static bool takes(const Island& island);
@@ -43,13 +43,14 @@ class ExtendedSimplex {
   std::int32_t entering_row();
   mlcp_outcome treat(const SolveInput& input, std::int32_t k, Limits& limits, Counts& counts);
   bool moves(std::int32_t j, std::int32_t k, Extended terms) const;
-  bool certify(const SolveInput& input, std::int32_t k, int sign, Extended terms);
-  void refine(Counts& counts);
+  bool find_still_step(std::int32_t k, int sign, Counts& counts);
+  bool certify(const SolveInput& input, std::int32_t k, int sign, Extended terms, Counts& counts);
+  void refine(const double* b, Extended* x, Counts& counts);
   void still();
   void round();
 
   Tableau tableau_;
-  Array<Extended> x_;           // by position: v and −γ
+  Array<Extended> x_, step_;    // by position: v and −γ; their change along a proof
   Array<Extended> rhs_, image_;  // b on what is in, x on the rest; the tableau times that: −x and b + w
   Array<Extended> a_;           // by ordinal: Schur pivot of the row beside the velocities alone
   CertificateCheck check_;

@@ -47,7 +47,7 @@ class Simplex {
   bool depends(const Island& island, std::int32_t o);
   bool certify(const Island& island, std::int32_t entering);
   void sharpen_certificate(const Island& island);
-  void collect_certificate(const Island& island, std::int32_t entering, double negligible);
+  double collect_certificate(const Island& island, std::int32_t entering, double negligible);
   void tighten(const Island& island);
 
   const SolveInput& input_;

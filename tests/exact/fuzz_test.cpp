@@ -163,6 +163,12 @@ TEST(Found, SoftRowBesideAJointThatHoldsItsBodies) {
   examine({"at_rest", Data::exact, at_rest}, 1106697, tally);
 }
 
+/// Solved by velocities as large as the inverse of an angle, or of two: what is left of Jᵀy is their product and passes for 0 in double.
+TEST(Found, ProofsThatForgetSmallAngles) {
+  Tally tally;
+  for (const std::uint64_t seed : {1008208, 1011844, 1107585, 1118142, 1121572}) examine({"nearly_dependent", Data::scaled, nearly_dependent, 1}, seed, tally);
+}
+
 constexpr Family families[] = {
     {"integers", Data::exact, integers},
     {"at_rest", Data::exact, at_rest},
