@@ -417,6 +417,14 @@ MLCP_API mlcp_status mlcp_timestep_momentum(mlcp_problem *problem, double h, int
 MLCP_API mlcp_status mlcp_timestep_rows(double h, double stabilisation, int32_t unilateral, int32_t count, const double *phi,
                                         const double *phi_t, double *r);
 
+/* Newton's law of restitution for unilateral rows (Moreau 1988), after mlcp_timestep_rows: a row that closes within the step, phi_i + h rate_i
+ * <= 0, faster than slowest, rate_i < -slowest, opens with at least e_i = restitution_i in 0..1 times that speed: r_i becomes
+ * max(r_i, -e_i rate_i - phi_t_i); the others keep their r. rate: d phi / dt before the step in m/s, J v + phi_t; phi_t as above, NULL: 0;
+ * slowest >= 0 in m/s, so that what bounces low comes to rest. All contacts obey the law at once: where balls touch in a row, the last one
+ * does not take the whole blow as in Newton's cradle. r may be phi or rate. */
+MLCP_API mlcp_status mlcp_timestep_restitution(double h, double slowest, int32_t count, const double *restitution, const double *phi,
+                                               const double *rate, const double *phi_t, double *r);
+
 /* A spring of stiffness s >= 0 (N/m) and damper d >= 0 (N.s/m), s and d not both 0, integrated implicitly over a step h:
  * compliance = 1 / (h (h s + d)), r = -s phi / (h s + d). */
 MLCP_API mlcp_status mlcp_timestep_spring(double h, double stiffness, double damping, double phi, double *compliance,

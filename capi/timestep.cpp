@@ -22,6 +22,11 @@ mlcp_status mlcp_timestep_rows(double h, double stabilisation, int32_t unilatera
   return guard(nullptr, [&] { timestep_rows(h, stabilisation, unilateral != 0, count, phi, phi_t, r); });
 }
 
+mlcp_status mlcp_timestep_restitution(double h, double slowest, int32_t count, const double* restitution, const double* phi,
+                                      const double* rate, const double* phi_t, double* r) {
+  return guard(nullptr, [&] { timestep_restitution(h, slowest, count, restitution, phi, rate, phi_t, r); });
+}
+
 mlcp_status mlcp_timestep_spring(double h, double stiffness, double damping, double phi, double* compliance, double* r) {
   if (!compliance || !r) return MLCP_ERROR_NULL;
   return guard(nullptr, [&] { put(timestep_spring(h, stiffness, damping, phi), compliance, r); });

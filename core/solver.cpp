@@ -7,6 +7,7 @@
 
 #include "dense_stage.h"
 #include "measure/errors.h"
+#include "solve/extended_simplex.h"
 #include "stage.h"
 
 namespace mlcp {
@@ -39,6 +40,7 @@ struct Solver::State {
   DenseStage dense;  ///< tried first where every island is small
   Stage main;
   Stage exact;  ///< rows after velocities everywhere: for islands that newton gave up in another order, and for canonical answers
+  ExtendedSimplex extended;  ///< for small islands that double precision cannot solve
   Pool pool;
   Measure measure;
   Result result;
@@ -47,10 +49,11 @@ struct Solver::State {
   Array<double> kept;  ///< v, while a canonical answer is tried
   Errors errors;
   std::int32_t indefinite = -1;  ///< the velocity whose pivot is not positive
+  double contradiction = 0;
   bool large = false;            ///< `main` has solved the last problem, and its factors stand
 
   State(const Settings& s, const Memory& m)
-      : memory(m), settings(s), dense(m), main(m), exact(m), pool(m), measure(m), result(m), imposed(m), given_up(m), kept(m) {}
+      : memory(m), settings(s), dense(m), main(m), exact(m), extended(m), pool(m), measure(m), result(m), imposed(m), given_up(m), kept(m) {}
 
   bool analyze(const Problem& problem, const Mask* enabled, const Poll& poll = {});
   void clear_findings();
@@ -63,9 +66,11 @@ struct Solver::State {
   void find_row_islands(const SolveInput& input);
   void solve_free_velocities(const Problem& problem, const Array<std::int32_t>& free);
   void read_ends(const Stage& stage, const Problem& problem, bool only_rows, mlcp_report& report, Counts& counts);
+  void take_certificate(const Workspace& work, const Island& island, std::int32_t index, std::int32_t rows);
   void take_given_velocities(const Problem& problem);
   void collect(const SolveInput& input);
   void rescue(const SolveInput& input, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts);
+  void extend(const SolveInput& input, Watch& watch, mlcp_report& report, Counts& counts);
   void make_canonical(const SolveInput& input, Watch& watch);
   void look_at_result(const SolveInput& input);
   void judge(const SolveInput& input);
@@ -92,6 +97,8 @@ void Solver::set_settings(const Settings& settings) {
   check_settings(settings);
   state_->settings = settings;
 }
+
+void Solver::allow_contradiction(double error) { state_->contradiction = error; }
 
 const Analysis& Solver::analysis() const { return state_->main.analysis; }
 std::span<const std::int32_t> Solver::ordering() const { return state_->main.analysis.ordering.order.span(); }
@@ -134,12 +141,17 @@ void Solver::State::read_ends(const Stage& stage, const Problem& problem, bool o
     report.fallbacks += end.gave_up;
     if (island.first_row < island.last_row) report.method = report.method < 0 || report.method == end.method ? end.method : MLCP_METHOD_AUTO;
     if (end.indefinite >= 0) indefinite = pattern.node[end.indefinite];
-    if (end.certificate_rows == 0) continue;
-    result.certificates.push_back({index, static_cast<std::int32_t>(result.certificate_row.size()), end.certificate_rows});
-    for (std::int32_t t = 0; t < end.certificate_rows; ++t) {
-      result.certificate_row.push_back(stage.basis.work.certificate_row[island.first_row + t]);
-      result.certificate_y.push_back(stage.basis.work.certificate_y[island.first_row + t]);
-    }
+    take_certificate(stage.basis.work, island, index, end.certificate_rows);
+  }
+}
+
+/// The proof of `rows` rows that stands in the workspace; 0: none.
+void Solver::State::take_certificate(const Workspace& work, const Island& island, std::int32_t index, std::int32_t rows) {
+  if (rows == 0) return;
+  result.certificates.push_back({index, static_cast<std::int32_t>(result.certificate_row.size()), rows});
+  for (std::int32_t o = island.first_row; o < island.first_row + rows; ++o) {
+    result.certificate_row.push_back(work.certificate_row[o]);
+    result.certificate_y.push_back(work.certificate_y[o]);
   }
 }
 
@@ -174,7 +186,7 @@ void Solver::State::rescue(const SolveInput& input, Watch& watch, Crew& crew, ml
   if (!any) return;
   Settings pivoting = settings;
   pivoting.method = MLCP_METHOD_SIMPLEX;
-  const SolveInput part{problem, &given_up, pivoting};
+  const SolveInput part{problem, &given_up, pivoting, input.contradiction};
   try {
     exact.analysis.run(problem, &given_up, true, {}, watch.poll());
   } catch (const Stopped&) {
@@ -208,6 +220,29 @@ void Solver::State::make_canonical(const SolveInput& input, Watch& watch) {
   result.v.assign(kept.span());
   result.gamma.assign(given_up.impulse.span());
   result.mask.state.assign(given_up.state.span());
+}
+
+/// Small islands that ended without an answer, though no limit of the caller's has stopped them: once more, in extended precision.
+void Solver::State::extend(const SolveInput& input, Watch& watch, mlcp_report& report, Counts& counts) {
+  const auto& islands = main.analysis.symbolic.islands;
+  bool changed = false;
+  for (std::size_t s = 0; s < islands.size(); ++s) {
+    IslandEnd& end = main.ends[s];
+    const std::int32_t rows = islands[s].last_row - islands[s].first_row, index = static_cast<std::int32_t>(s);
+    if (result.island_outcome[s] != MLCP_ITERATION_LIMIT || end.method == MLCP_METHOD_PGS || !ExtendedSimplex::takes(islands[s])) continue;
+    if (settings.max_iterations > 0 && end.counts.pivots >= settings.max_iterations) continue;
+    Counts spent;
+    Limits limits(watch, index, static_cast<std::int32_t>(islands.size()), 4 * (rows + 10));
+    end.kept = false;
+    ++report.fallbacks;
+    result.island_outcome[s] = extended.solve(input, islands[s], main.basis, limits, spent);
+    counts += spent;
+    if (result.island_outcome[s] != MLCP_SOLVED && result.island_outcome[s] != MLCP_INFEASIBLE) continue;
+    main.collect(input.problem, islands[s], result);
+    take_certificate(main.basis.work, islands[s], index, extended.certificate_rows());
+    changed = true;
+  }
+  if (changed) judge(input);
 }
 
 void Solver::State::look_at_result(const SolveInput& input) {
@@ -347,6 +382,7 @@ void Solver::State::take_answer(const SolveInput& input, Watch& watch, Crew& cre
   collect(input);
   rescue(input, watch, crew, report, counts);
   judge(input);
+  extend(input, watch, report, counts);
   report.factor_entries = main.analysis.symbolic.entries();
 }
 
@@ -388,11 +424,11 @@ void Solver::solve(const Problem& problem, const Mask* enabled, const Mask* star
   check_mask(enabled, problem, "enabled");
   check_mask(start, problem, "start");
   s.pool.resize(s.settings.parallel_for ? 1 : s.settings.num_threads > 0 ? s.settings.num_threads : static_cast<std::int32_t>(std::max(1u, std::thread::hardware_concurrency())));
-  s.solve({problem, enabled, s.settings}, start, false, report);
+  s.solve({problem, enabled, s.settings, s.contradiction}, start, false, report);
 }
 
 void Solver::solve_again(const Problem& problem, const Mask* enabled, const Mask& start, mlcp_report& report) {
-  state_->solve({problem, enabled, state_->settings}, &start, true, report);
+  state_->solve({problem, enabled, state_->settings, state_->contradiction}, &start, true, report);
 }
 
 /// The order is kept, so that the next solve gives the same bits as without.
@@ -401,6 +437,7 @@ void Solver::trim() {
   s.imposed.assign(ordering());
   s.dense = DenseStage(s.memory);
   for (Stage* stage : {&s.main, &s.exact}) stage->renew(s.memory);
+  s.extended.trim();
   s.measure = Measure(s.memory);
   s.large = false;
 }

@@ -29,6 +29,8 @@ class Solver {
   /// The same after numbers of rows alone have changed since the last solve: r, bounds, entries of J and Σ in their pattern. M, k and what is
   /// enabled are what they were. Islands whose rows are all as they were keep their answer, the others their factor.
   void solve_again(const Problem& problem, const Mask* enabled, const Mask& start, mlcp_report& report);
+  /// Of the solves from now on: see SolveInput.
+  void allow_contradiction(double error);
   const Result& result() const;
 
   /// The last analysis; without nodes before the first one.

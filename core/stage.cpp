@@ -4,6 +4,7 @@ namespace mlcp {
 
 void Stage::load(const SolveInput& input, const Mask* start) {
   basis.prepare(input.problem, analysis, input.settings);
+  basis.contradiction = input.contradiction;
   basis.set.start(input.problem, analysis.pattern, basis.values, input.enabled, start);
 }
 
@@ -59,21 +60,23 @@ bool Stage::settle(Watch& watch) {
 }
 
 void Stage::collect(const Problem& problem, bool only_rows, Result& result) const {
+  for (const Island& island : analysis.symbolic.islands)
+    if (!only_rows || island.first_row < island.last_row) collect(problem, island, result);
+}
+
+void Stage::collect(const Problem& problem, const Island& island, Result& result) const {
   const std::int32_t n = problem.n();
   const KktPattern& pattern = analysis.pattern;
-  for (const Island& island : analysis.symbolic.islands) {
-    if (only_rows && island.first_row == island.last_row) continue;
-    for (std::int32_t p = island.first; p < island.last; ++p) {
-      const std::int32_t node = pattern.node[p];
-      if (node < n) {
-        result.v[node] = basis.set.x[p];
-        continue;
-      }
-      const std::uint8_t state = basis.set.state[pattern.row_ordinal[p]];
-      if (state == ActiveSet::disabled) continue;
-      result.mask.state[node - n] = row_state(state);
-      result.gamma[node - n] = basis.set.x[p] == 0 ? 0.0 : -basis.set.x[p];
+  for (std::int32_t p = island.first; p < island.last; ++p) {
+    const std::int32_t node = pattern.node[p];
+    if (node < n) {
+      result.v[node] = basis.set.x[p];
+      continue;
     }
+    const std::uint8_t state = basis.set.state[pattern.row_ordinal[p]];
+    if (state == ActiveSet::disabled) continue;
+    result.mask.state[node - n] = row_state(state);
+    result.gamma[node - n] = basis.set.x[p] == 0 ? 0.0 : -basis.set.x[p];
   }
 }
 

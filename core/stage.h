@@ -30,6 +30,7 @@ class Stage {
 
   /// Velocities, impulses and states, from elimination order to the caller's. only_rows: of islands with rows.
   void collect(const Problem& problem, bool only_rows, Result& result) const;
+  void collect(const Problem& problem, const Island& island, Result& result) const;
 
  private:
   CertificateCheck check_;

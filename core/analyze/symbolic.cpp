@@ -1,5 +1,7 @@
 #include "analyze/symbolic.h"
 
+#include <algorithm>
+
 namespace mlcp {
 
 void Symbolic::build(const KktPattern& pattern, const EliminationTree& tree, const Crowding& crowding, Poll poll) {
@@ -33,6 +35,18 @@ void Symbolic::build(const KktPattern& pattern, const EliminationTree& tree, con
 
   run_start.resize(size);
   for (std::int32_t p = 0; p < size; ++p) run_start[p] = p > 0 && run_end[p - 1] == run_end[p] ? run_start[p - 1] : p;
+
+  const auto single = [&](std::int32_t p) { return run_start[p] == p && run_end[p] == p + 1; };
+  const auto equal = [&](std::int32_t p, std::int32_t q) {
+    return pointers[p + 1] - pointers[p] == pointers[q + 1] - pointers[q] && std::equal(rows.begin() + pointers[p], rows.begin() + pointers[p + 1], rows.begin() + pointers[q]);
+  };
+  batch_start.resize(size);
+  for (std::int32_t p = 0; p < size; ++p) {
+    batch_start[p] = run_end[p] == p + 1 ? run_start[p] : -1;
+    if (p == 0 || !single(p) || !single(p - 1) || parent[p] < 0 || parent[p] != parent[p - 1] || !equal(p - 1, p)) continue;
+    batch_start[p] = batch_start[p - 1];
+    batch_start[p - 1] = -1;
+  }
 
   path_entries.resize(size);
   for (std::int32_t p = size - 1; p >= 0; --p)

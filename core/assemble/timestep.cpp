@@ -63,6 +63,26 @@ void timestep_rows(double h, double stabilisation, bool unilateral, std::int32_t
   for (std::int32_t i = 0; i < count; ++i) r[i] = row_r(h, stabilisation, unilateral, phi[i], phi_t ? phi_t[i] : 0);
 }
 
+void timestep_restitution(double h, double slowest, std::int32_t count, const double* restitution, const double* phi, const double* rate,
+                          const double* phi_t, double* r) {
+  check_step(h);
+  check_at_least_zero("slowest", slowest);
+  check_count("count", count);
+  check_array("restitution", restitution, count);
+  check_array("phi", phi, count);
+  check_array("rate", rate, count);
+  check_array("r", r, count);
+  check_finite("phi", phi, count);
+  check_finite("rate", rate, count);
+  check_finite("r", r, count);
+  if (phi_t) check_finite("phi_t", phi_t, count);
+  for (std::int32_t i = 0; i < count; ++i)
+    if (!(restitution[i] >= 0 && restitution[i] <= 1))
+      throw Error(MLCP_ERROR_ARGUMENT, "restitution[%d] = %g is not in 0 .. 1", i, restitution[i]);
+  for (std::int32_t i = 0; i < count; ++i)
+    if (rate[i] < -slowest && phi[i] + h * rate[i] <= 0) r[i] = std::max(r[i], -restitution[i] * rate[i] - (phi_t ? phi_t[i] : 0));
+}
+
 SoftRow timestep_spring(double h, double stiffness, double damping, double phi) {
   check_step(h);
   check_at_least_zero("stiffness", stiffness);

@@ -11,6 +11,10 @@ void timestep_momentum(Problem& problem, double h, std::int32_t count, const dou
 void timestep_rows(double h, double stabilisation, bool unilateral, std::int32_t count, const double* phi, const double* phi_t,
                    double* r);
 
+/// rᵢ ← max(rᵢ, −eᵢ ρᵢ − ∂φᵢ/∂t) where φᵢ + h ρᵢ ≤ 0 and ρᵢ < −slowest, ρ = dφ/dt before the step: Newton's law, Moreau (1988). NULL phi_t: 0.
+void timestep_restitution(double h, double slowest, std::int32_t count, const double* restitution, const double* phi, const double* rate,
+                          const double* phi_t, double* r);
+
 /// A row with a compliance in place of a spring, a damper or a soft joint.
 struct SoftRow {
   double compliance, r;

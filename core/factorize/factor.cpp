@@ -25,7 +25,7 @@ void Factor::prepare(const KktPattern& pattern, const Symbolic& symbolic, const 
   failed_.resize(size);
 }
 
-/// Left-looking by runs. Column p subtracts what earlier columns of its own run and whole earlier runs do to it: their columns share the
+/// Left-looking by batches. Column p subtracts what earlier columns of its own run and whole earlier batches do to it: their columns share the
 /// rows from p on, so that Σ_k C(p:,k) c_pk / d_k is summed densely and scattered once.
 FactorStatus Factor::factorize(const Island& island, const std::uint8_t* wanted, double drop, std::int64_t& work) {
   std::fill(head_.begin() + island.first, head_.begin() + island.last, -1);
@@ -43,13 +43,13 @@ FactorStatus Factor::factorize(const Island& island, const std::uint8_t* wanted,
         const std::int32_t q = pattern_->lower_rows[t];
         if (in_[q]) y_[q] = kkt_->lower[t];
       }
-      if (const std::int32_t first = symbolic_->run_start[p]; first < p) subtract_run(first, p, end - begin, p, d, work);
+      if (const std::int32_t first = symbolic_->run_start[p]; first < p) subtract(first, p, end - begin, p, d, work);
     }
-    // runs whose next row is p: the last column of a run has the rows that all its columns share
+    // batches whose next row is p: the last column of each has the rows that all its columns share
     for (std::int32_t last = head_[p]; last >= 0;) {
       const std::int32_t after = next_[last];
       const std::int64_t t = cursor_[last]++, tail = symbolic_->pointers[last + 1] - t - 1;
-      if (in_[p]) subtract_run(symbolic_->run_start[last], last + 1, tail, p, d, work);
+      if (in_[p]) subtract(symbolic_->batch_start[last], last + 1, tail, p, d, work);
       if (tail > 0) {
         const std::int32_t q = symbolic_->rows[cursor_[last]];
         next_[last] = head_[q];
@@ -74,7 +74,7 @@ FactorStatus Factor::factorize(const Island& island, const std::uint8_t* wanted,
     }
     pivot_[p] = live ? d : 0;
     inverse_[p] = live ? 1 / d : 0;
-    if (symbolic_->run_end[p] == p + 1 && begin < end) {
+    if (symbolic_->batch_start[p] >= 0 && begin < end) {
       cursor_[p] = begin;
       next_[p] = head_[symbolic_->rows[begin]];
       head_[symbolic_->rows[begin]] = p;
@@ -83,9 +83,9 @@ FactorStatus Factor::factorize(const Island& island, const std::uint8_t* wanted,
   return FactorStatus::ok;
 }
 
-/// Columns first .. last − 1 of one run, which all have row p and behind it the same `tail` rows: y −= Σ_k C(tail,k) c_pk / d_k, and d for
+/// Columns first .. last − 1 of one batch, which all have row p and behind it the same `tail` rows: y −= Σ_k C(tail,k) c_pk / d_k, and d for
 /// row p itself.
-void Factor::subtract_run(std::int32_t first, std::int32_t last, std::int64_t tail, std::int32_t p, double& d, std::int64_t& work) {
+void Factor::subtract(std::int32_t first, std::int32_t last, std::int64_t tail, std::int32_t p, double& d, std::int64_t& work) {
   constexpr std::int32_t most = 32;  // columns summed at once
   const std::int64_t end = symbolic_->pointers[last];
   const std::int32_t* rows = symbolic_->rows.data() + end - tail;

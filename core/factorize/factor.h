@@ -71,7 +71,7 @@ class Factor {
   std::int64_t entry(std::int32_t column, std::int32_t row) const;
   FactorStatus rank_one(std::int32_t p, double sigma, std::int64_t& work);
   void clear_row(std::int32_t p, std::int64_t& work);
-  void subtract_run(std::int32_t first, std::int32_t last, std::int64_t tail, std::int32_t p, double& d, std::int64_t& work);
+  void subtract(std::int32_t first, std::int32_t last, std::int64_t tail, std::int32_t p, double& d, std::int64_t& work);
 
   const Kernels* kernels_ = &kernels_for_this_cpu();
   const KktPattern* pattern_ = nullptr;
@@ -81,7 +81,7 @@ class Factor {
   Array<double> values_;             // C, as Symbolic::rows
   Array<double> pivot_, inverse_;    // d and 1/d; 1/d = 0 for what is out
   Array<std::uint8_t> in_;
-  Array<std::int32_t> next_, head_;  // columns whose next row is p, while factoring
+  Array<std::int32_t> next_, head_;  // batches whose next row is p, while factoring
   Array<std::int64_t> cursor_;
   Array<double> y_;                  // 0 between calls
   Array<double> gathered_;           // workspace of the kernels

@@ -76,14 +76,14 @@ void Refinement::stop(const Island& island, const KktPattern& pattern, const Kkt
 /// residual is rounding it is left out of the right-hand side: then the correction is as small as the rows' residuals and leaves
 /// momentum as it is (M δv = Jᵀδγ).
 double Refinement::solve(const Island& island, const KktPattern& pattern, const KktValues& values, const Factor& factor,
-                         const double* b, const double* size, double* x, std::int64_t& steps, std::int64_t& work) {
+                         const double* b, const double* size, double* x, std::int64_t& steps, std::int64_t& work, bool from_x) {
   const auto of = [&](auto* data) { return slice(data, island.first, island.last); };
   const auto look = [&] { return measure(island, pattern, values, factor, b, size, x, work); };
   // a row at rest has the error 1 until it is exactly at rest: its w tells whether it gets there
   const auto better = [](const Error& now, const Error& before) {
     return now.largest() < before.largest() || now.off < before.off || now.largest_off < 0.1 * before.largest_off;
   };
-  for (std::int32_t p = island.first; p < island.last; ++p)
+  for (std::int32_t p = island.first; p < island.last && !from_x; ++p)
     if (factor.in(p)) x[p] = 0;
   Error error = look();
   double momentum_before = infinity;

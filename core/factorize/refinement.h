@@ -12,10 +12,11 @@ class Refinement {
   void prepare(std::int32_t size);
 
   /// b: right-hand side by position. x: on entry the values of what is out (−γ of rows at a bound); on return also of what is in.
+  /// from_x: starts from x of what is in, whose dependent rows keep their share of the load; else from 0, which gives them nearly that of least norm.
   /// size: magnitude of the terms besides |K||x|, |b| or more.
   /// returns the componentwise backward error maxᵢ |b − K x|ᵢ / (|K||x| + size)ᵢ reached. steps counts solves after the first.
   double solve(const Island& island, const KktPattern& pattern, const KktValues& values, const Factor& factor,
-               const double* b, const double* size, double* x, std::int64_t& steps, std::int64_t& work);
+               const double* b, const double* size, double* x, std::int64_t& steps, std::int64_t& work, bool from_x = false);
 
   /// Magnitude of the terms of node p in the last measurement.
   double scale(std::int32_t p) const { return scale_[p]; }

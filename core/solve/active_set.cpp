@@ -40,6 +40,15 @@ void ActiveSet::start(const Problem& problem, const KktPattern& pattern, const K
   }
 }
 
+bool ActiveSet::violated(std::int32_t o) const {
+  switch (state[o]) {
+    case at_lower: return w[o] < -tolerance[o];
+    case at_upper: return w[o] > tolerance[o];
+    case out: return std::abs(w[o]) > tolerance[o];
+    default: return false;
+  }
+}
+
 mlcp_row_state row_state(std::uint8_t state) {
   switch (state) {
     case ActiveSet::at_lower: return MLCP_ROW_AT_LOWER;

@@ -25,6 +25,8 @@ struct ActiveSet {
   static State starting(const Problem& problem, std::int32_t row, const Mask* mask);
   /// Starts from the caller's mask (NULL: only rows that may push both ways are active).
   void start(const Problem& problem, const KktPattern& pattern, const KktValues& values, const Mask* enabled, const Mask* mask);
+  /// Row o is at rest on the wrong side of its bound.
+  bool violated(std::int32_t o) const;
   void defer(std::int32_t o) {
     deferred[o] = 1;
     tolerance[o] = infinity;

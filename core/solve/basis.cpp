@@ -19,17 +19,6 @@ constexpr double off = 1e-13;
 /// What making them 0 may cost, and what counts as such.
 constexpr double stilled = 1e-14, rounding = 16 * 2.2e-16;
 
-/// A row at rest on the wrong side of its bound.
-bool violated(const ActiveSet& set, std::int32_t o) {
-  const double w = set.w[o], zero = set.tolerance[o];
-  switch (set.state[o]) {
-    case ActiveSet::at_lower: return w < -zero;
-    case ActiveSet::at_upper: return w > zero;
-    case ActiveSet::out: return std::abs(w) > zero;
-    default: return false;
-  }
-}
-
 }  // namespace
 
 void Basis::prepare(const Problem& problem, const Analysis& analysis, const Settings& settings) {
@@ -169,7 +158,7 @@ void Basis::look_at_slacks(const Island& island, Counts& counts) {
 
 std::int32_t Basis::violations(const Island& island) const {
   std::int32_t count = 0;
-  for (std::int32_t o = island.first_row; o < island.last_row; ++o) count += violated(set, o);
+  for (std::int32_t o = island.first_row; o < island.last_row; ++o) count += set.violated(o);
   return count;
 }
 
@@ -188,9 +177,9 @@ bool Basis::still(const Island& island, bool widely) {
   return changed;
 }
 
-double Basis::refine(const Island& island, Counts& counts) {
+double Basis::refine(const Island& island, Counts& counts, bool from_x) {
   double error = refinement.solve(island, *pattern, values, factor, values.b.data(), values.size.data(), set.x.data(),
-                                  counts.refinements, counts.work);
+                                  counts.refinements, counts.work, from_x);
   look_at_slacks(island, counts);
   std::int32_t wrong = violations(island);
   auto point = slice(work.point.data(), island.first, island.last);

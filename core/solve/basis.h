@@ -16,6 +16,9 @@ constexpr double dependent_pivot = 1e-9;
 /// has small pivots, and dropping them costs more than it saves.
 constexpr double lost_pivot = 1e-13;
 
+/// Compliance of every row, relative to aᵢ, by which an infeasible island is solved for the velocity of least violation.
+constexpr double least_violation_softness = 1e-7;
+
 /// The active set and the factor of its KKT matrix, kept in step: what every method works on.
 /// invariant, per island: a row is in the factor if and only if its state is active.
 class Basis {
@@ -50,8 +53,8 @@ class Basis {
 
   /// The refined point of the factor as it is; then w, and what counts as zero. A velocity that is 0 because large impulses cancel, or because
   /// rows at rest hold it there, comes out as rounding, which its own terms do not forgive: it is made 0 where the errors allow it.
-  /// returns the backward error.
-  double refine(const Island& island, Counts& counts);
+  /// from_x: see Refinement.  returns the backward error.
+  double refine(const Island& island, Counts& counts, bool from_x = false);
 
   /// w of the point, and what counts as zero.
   void look_at_slacks(const Island& island, Counts& counts);
@@ -72,6 +75,7 @@ class Basis {
   Refinement refinement;
   MassResponse response;
   Workspace work;
+  double contradiction = 0;  ///< see SolveInput
 
  private:
   bool row_moves(const Problem& problem, std::int32_t o) const;

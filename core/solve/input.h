@@ -10,6 +10,7 @@ struct SolveInput {
   const Problem& problem;
   const Mask* enabled;  ///< NULL: every row
   const Settings& settings;
+  double contradiction = 0;  ///< backward errors up to this, of rows that depend on each other, may stay: what tries to remove them costs most
 };
 
 }  // namespace mlcp

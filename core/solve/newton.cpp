@@ -4,18 +4,23 @@
 #include <cmath>
 
 #include "memory/slice.h"
+#include "solve/interior_point.h"
 
 namespace mlcp {
 namespace {
 
 /// Full steps may go on so often without fewer changes than ever before.
 constexpr int patience = 10;
+/// Where rows depend on each other, the interior points are next.
+constexpr int patience_where_dependent = 3;
 /// Refined points as good as this are judged row by row; worse ones stand on a factor that cannot be trusted.
 constexpr double refined = 1e-13;
 constexpr double first_epsilon = 1e-2, reduction = 0.3;
 constexpr int most_descents = 30, most_inner_steps = 60;
 /// Rounding may move a row once more after the refined point.
 constexpr int most_rounds = 5;
+/// Of its first value: what the interior points are followed down to.
+constexpr double reduced_gap = 1e-10;
 /// Of the largest Mⱼⱼ, where M is only semidefinite.
 constexpr double semidefinite_delta = 1e-8;
 
@@ -38,7 +43,8 @@ void Newton::go_back(const Island& island) {
 Newton::Ending Newton::full_steps(const Island& island, double drop) {
   std::size_t fewest = SIZE_MAX;
   int share = 0;  // 2^−share of the changes are made
-  for (int left = patience;;) {
+  const int most = drop > 0 ? patience : patience_where_dependent;
+  for (int left = most;;) {
     stopped_ = limits_.check(counts_, 0);
     if (stopped_ != MLCP_SOLVED) return Ending::stopped;
     proximal_.newton_point(island);
@@ -50,7 +56,7 @@ Newton::Ending Newton::full_steps(const Island& island, double drop) {
     }
     if (flips.size() < fewest) {
       fewest = flips.size();
-      left = patience;
+      left = most;
       share = std::max(0, share - 1);
     } else if (--left < 0) {
       return Ending::stuck;
@@ -63,12 +69,14 @@ Newton::Ending Newton::full_steps(const Island& island, double drop) {
 }
 
 /// settled: the refined point of the active set solves the problem itself. stuck: it does not, or flips_ tells which rows must change.
-Newton::Ending Newton::finish(const Island& island) {
+/// from_x: dependent rows keep their share, and may contradict each other by as much as is allowed.
+Newton::Ending Newton::finish(const Island& island, bool from_x) {
   const std::size_t few = 8 + (island.last_row - island.first_row) / 50;
+  const double enough = from_x ? std::max(refined, basis_.contradiction) : refined;
   for (int round = 0; round < most_rounds; ++round) {
-    const double error = basis_.refine(island, counts_);
+    const double error = basis_.refine(island, counts_, from_x);
     flips_ = proximal_.flips_of_point(island);
-    if (flips_.empty()) return error <= refined && empty_rows_hold(island) ? Ending::settled : Ending::stuck;
+    if (flips_.empty()) return error <= enough && empty_rows_hold(island) ? Ending::settled : Ending::stuck;
     if (proximal_.epsilon() == 0 || !(error <= refined) || flips_.size() > few) break;
     basis_.change(island, flips_, 0, counts_);  // ties: rows that ε had kept on the other side of their bounds
   }
@@ -123,6 +131,11 @@ Newton::Ending Newton::sharp_rounds(const Island& island, int rounds) {
     if (ending != Ending::settled) return ending;
     proximal_.center_here(island);
     if (finish(island) == Ending::settled) return Ending::settled;
+    // The share of least norm may be beyond the bounds of some rows, where that of the centre is not. Only where there is a solution: the impulses of
+    // an infeasible problem grow from centre to centre until its contradiction is small beside them.
+    if (!feasible_) continue;
+    proximal_.newton_point(island);
+    if (finish(island, true) == Ending::settled) return Ending::settled;
   }
   return Ending::stuck;
 }
@@ -163,15 +176,29 @@ Newton::Ending Newton::descent(const Island& island) {
   return Ending::stuck;
 }
 
+/// From the start, centred, along the path of interior points, whose end shows the active set.
+Newton::Ending Newton::interior(const Island& island) {
+  slice(basis_.set.x.data(), island.first, island.last) = slice(basis_.work.center.data(), island.first, island.last);
+  InteriorPoint path(basis_, limits_, counts_);
+  const bool reached = path.start(island, delta_) && path.reduce(island, reduced_gap);
+  stopped_ = path.stopped();
+  if (stopped_ != MLCP_SOLVED) return Ending::stopped;
+  if (!reached) return Ending::stuck;
+  proximal_.center_here(island);
+  feasible_ = true;
+  return sharp(island, 2);
+}
+
 mlcp_outcome Newton::solve(const Island& island) {
   keep(island);
   proximal_.enter(island);
   proximal_.center_here(island);
   delta_ = 0;
+  feasible_ = false;
   Ending ending = island.crowded ? Ending::dependent : exact(island);
-  for (int attempt = 0; attempt < 2 && ending != Ending::settled && ending != Ending::stopped; ++attempt) {
+  for (int attempt = 0; attempt < 3 && ending != Ending::settled && ending != Ending::stopped; ++attempt) {
     go_back(island);
-    ending = attempt == 0 ? sharp(island, 4) : descent(island);
+    ending = attempt == 0 ? sharp(island, 4) : attempt == 1 ? interior(island) : descent(island);
   }
   if (ending != Ending::settled) {
     basis_.values.regularise(*basis_.pattern, island, 0, 0);
@@ -188,6 +215,7 @@ mlcp_outcome Newton::solve(const Island& island) {
 mlcp_outcome Newton::resume(const Island& island, std::span<const Flip> flips, double epsilon) {
   proximal_.enter(island);
   proximal_.resume(epsilon);
+  feasible_ = false;
   Ending ending = basis_.change(island, flips, epsilon > 0 ? 0 : dependent_pivot, counts_) > 0 && epsilon == 0 ? Ending::dependent : Ending::settled;
   keep(island);
   proximal_.center_here(island);

@@ -13,6 +13,7 @@ constexpr double sharp_epsilon = 1e-8;
 /// Full steps alone are the whole method on most scenes: a handful from a fair guess. They need not converge, so
 ///   exact      ε = 0, as long as the number of changes falls and no row depends on active ones;
 ///   sharp      ε = 1e-8, the same with dependent rows;
+///   interior   from the centre of what is feasible by interior points (InteriorPoint) to an active set, then sharp again;
 ///   descent    ε from 1e-2 down, with an exact line search on the proximal problem: from anywhere. Lowered when the inner problem is solved.
 /// Each ends with ε = 0: iterative refinement against K itself, and a last look whether every row is where it belongs.
 class Newton {
@@ -38,9 +39,10 @@ class Newton {
   Ending sharp(const Island& island, int rounds);
   Ending sharp_rounds(const Island& island, int rounds);
   Ending descent(const Island& island);
+  Ending interior(const Island& island);
   Ending full_steps(const Island& island, double drop);
   Ending minimise(const Island& island);
-  Ending finish(const Island& island);
+  Ending finish(const Island& island, bool from_x = false);
   bool empty_rows_hold(const Island& island) const;
   void keep(const Island& island);
   void go_back(const Island& island);
@@ -51,6 +53,7 @@ class Newton {
   Counts& counts_;
   Proximal proximal_;
   double delta_ = 0;
+  bool feasible_ = false;  // interior points have shown it
   std::span<const Flip> flips_;  // of the last finish
   mlcp_outcome stopped_ = MLCP_SOLVED;
 };

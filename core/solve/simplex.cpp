@@ -261,8 +261,7 @@ mlcp_outcome Simplex::solve(const Island& island, std::int32_t index, Array<mlcp
 }
 
 void Simplex::settle(const Island& island) {
-  constexpr double softness = 1e-7;
-  basis_.values.soften(input_.problem, *basis_.pattern, island.first_row, island.last_row, softness);
+  basis_.values.soften(input_.problem, *basis_.pattern, island.first_row, island.last_row, least_violation_softness);
   std::fill(basis_.set.deferred.begin() + island.first_row, basis_.set.deferred.begin() + island.last_row, 0);
   certifying_ = false;
   run(island, nullptr);

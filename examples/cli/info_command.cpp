@@ -52,6 +52,33 @@ Json scaling(const Survey& found) {
           {"r", range(found.right_hand_side)}};
 }
 
+const char* name_of(mlcp_friction model) {
+  switch (model) {
+    case MLCP_FRICTION_CONVEX: return "convex";
+    case MLCP_FRICTION_COULOMB: return "coulomb";
+    case MLCP_FRICTION_BOX: return "fixed_box";
+    case MLCP_FRICTION_FINDEX: return "box";  // as solve --friction names it
+    default: return "none";
+  }
+}
+
+/// Those that the file names; a folder is surveyed and solved without their friction.
+Json contacts(const FileContacts& found) {
+  Json json = {{"count", found.mu.size()}};
+  if (found.mu.empty()) return json;
+  const auto [fewest, most] = std::minmax_element(found.dimension.begin(), found.dimension.end());
+  const auto [least, largest] = std::minmax_element(found.mu.begin(), found.mu.end());
+  json["rows_of_each"] = {*fewest, *most};
+  json["mu"] = {*least, *largest};
+  json["mu_is_0"] = std::count(found.mu.begin(), found.mu.end(), 0.0);
+  json["models"] = nullptr;
+  for (const mlcp_friction model : found.model) {
+    Json& count = json["models"][name_of(model)];
+    count = count.is_null() ? 1 : count.get<int>() + 1;
+  }
+  return json;
+}
+
 /// What a reader should know before trusting or blaming a solver.
 Json unusual(const ProblemFile& file, const Survey& found, const mlcp_report& report) {
   Json remarks = Json::array();
@@ -94,6 +121,7 @@ Json describe(const std::string& path, const ProblemFile& file) {
   json["rows"] = {{"in_the_file", file.file_rows}, {"left_out", file.file_rows - found.rows}, {"enabled", report.enabled_rows},
                   {"bilateral", found.bilateral},  {"unilateral", found.unilateral},          {"boxed", found.boxed},
                   {"fixed", found.fixed},          {"soft", found.soft_rows}};
+  json["contacts"] = contacts(file.contacts);
   json["entries"] = {{"M", found.mass_entries}, {"J", found.jacobian_entries}, {"S", found.compliance_entries}};
   json["islands"] = {{"count", report.islands}, {"rows_of_the_largest", largest_island(island, report.islands)}};
   const std::optional<std::int32_t> rank = independent_rows(file.problem.get(), island, report.islands);
@@ -106,14 +134,25 @@ Json describe(const std::string& path, const ProblemFile& file) {
   return json;
 }
 
+/// "key value, key value"
+std::string as_list(const Json& object);
+
 std::string as_words(const Json& value) {
   if (value.is_null()) return "-";
+  if (value.is_object()) return as_list(value);
   if (value.is_string()) return value.get<std::string>();
-  if (value.is_array()) return as_words(value[0]) + " to " + as_words(value[1]);
+  if (value.is_array()) return value[0] == value[1] ? as_words(value[0]) : as_words(value[0]) + " to " + as_words(value[1]);
   if (!value.is_number_float()) return value.dump();
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value.get<double>());
   return text;
+}
+
+std::string as_list(const Json& object) {
+  std::string list;
+  for (const auto& [key, value] : object.items()) list += (list.empty() ? "" : ", ") + key + " " + as_words(value);
+  std::replace(list.begin(), list.end(), '_', ' ');
+  return list;
 }
 
 /// "name  value" a line; an object inside as "name  key value, key value".
@@ -128,10 +167,7 @@ std::string as_text(const Json& json) {
     if (name == "unusual") {
       for (const Json& remark : value) add_line(name, as_words(remark));
     } else if (value.is_object()) {
-      std::string list;
-      for (const auto& [key, inner] : value.items()) list += (list.empty() ? "" : ", ") + key + " " + as_words(inner);
-      std::replace(list.begin(), list.end(), '_', ' ');
-      add_line(name, list);
+      add_line(name, as_list(value));
     } else {
       add_line(name, name == "independent_rows" && value.is_null() ? "not counted: too large" : as_words(value));
     }

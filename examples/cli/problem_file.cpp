@@ -10,6 +10,14 @@
 namespace cli {
 namespace {
 
+FileContacts contacts_of(const mlcp_problem* problem) {
+  const auto count = static_cast<std::size_t>(mlcp_problem_contact_count(problem));
+  FileContacts found = {std::vector<std::int32_t>(count), std::vector<double>(count), std::vector<mlcp_friction>(count)};
+  handles::check(mlcp_problem_get_contacts(problem, static_cast<std::int32_t>(count), nullptr, found.dimension.data(), found.model.data(),
+                                           found.mu.data(), nullptr));
+  return found;
+}
+
 ProblemFile read_snapshot(const std::filesystem::path& path) {
   mlcp_problem* problem = nullptr;
   mlcp_solver* solver = nullptr;
@@ -25,6 +33,7 @@ ProblemFile read_snapshot(const std::filesystem::path& path) {
   file.file_rows = mlcp_problem_row_count(problem);
   file.file_row.resize(static_cast<std::size_t>(file.file_rows));
   std::iota(file.file_row.begin(), file.file_row.end(), 0);
+  file.contacts = contacts_of(problem);
   return file;
 }
 

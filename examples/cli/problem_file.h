@@ -7,6 +7,13 @@
 
 namespace cli {
 
+/// Contacts that a file names, also where it was read without friction.
+struct FileContacts {
+  std::vector<std::int32_t> dimension;  // rows of each in the file
+  std::vector<double> mu;
+  std::vector<mlcp_friction> model;     // empty where the file names none: folders and FCLIB files
+};
+
 /// A PROBLEM of the command line, as it was read.
 struct ProblemFile {
   handles::Problem problem;
@@ -14,6 +21,7 @@ struct ProblemFile {
   handles::Mask enabled, start; // a snapshot's, if it has them
   std::int32_t file_rows = 0;
   std::vector<std::int32_t> file_row;  // of every row of the problem; rows of the file that are not there were left out
+  FileContacts contacts;
 };
 
 /// Friction for all contacts of a file. Without a model a snapshot keeps its own, and files that name none are read without friction.

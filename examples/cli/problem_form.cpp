@@ -86,6 +86,7 @@ ProblemFile make_problem(const ProblemForm& form, const Friction& friction) {
   ProblemFile file;
   file.problem = handles::make_problem();
   file.solver = handles::make_solver();
+  file.contacts = {std::vector<std::int32_t>(static_cast<std::size_t>(form.contacts), form.dimension), form.mu, {}};
   const std::int32_t kept = kept_of_group(form, friction);
   const std::vector<std::int32_t> new_index = choose_rows(form, kept, file);
   const auto count = static_cast<std::int32_t>(file.file_row.size());

@@ -9,6 +9,10 @@ namespace scenes {
 /// O(n). With contacts every lower pin stands a little, and at random, above a slope along that line, and has one contact row
 /// with it: the worst case for the paper's order of elimination (bodies, joints, contacts). Leaves out friction, the rods'
 /// thickness and contacts between links: none is needed for that. mass_ratio makes the last link heavier than each other one.
+///
+/// A step takes the directions of joints from its start, so that the tension T is a spring against turning that is integrated explicitly: links of
+/// mass m and length l that turn by ±θ in turns swing with ω² = 12 T/(m l), and the chain stays straight only with h < 2/ω. That is 10.8 ms for 30
+/// links and 1.9 ms for 1000. With longer steps K creates the energy of what the joints lost.
 class Chain : public Scene {
  public:
   Chain(std::int32_t links, bool contacts, double mass_ratio = 1, unsigned seed = 1);

@@ -47,8 +47,8 @@ void ContactList::add_to(const Problem& problem, double h, double stabilisation,
     }
     if (friction_[i] == 0) models[i] = MLCP_FRICTION_NONE;
     if (restitution_[i] == 0) continue;
-    const double before = approach(i, v);
-    if (before < -slow && gap_[i] + h * before <= 0) normal = std::max(normal, -restitution_[i] * before);
+    const double rate = approach(i, v);
+    check(mlcp_timestep_restitution(h, slow, 1, &restitution_[i], &gap_[i], &rate, nullptr, &normal));
   }
   mlcp_contacts contacts;
   mlcp_contacts_init(&contacts, sizeof contacts);

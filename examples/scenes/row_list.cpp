@@ -41,6 +41,10 @@ void RowList::add_motor(std::int32_t body_a, std::int32_t body_b, std::span<cons
   add(Role::Motor, body_a, body_b, jacobian_a, jacobian_b, speed, force, feature);
 }
 
+bool RowList::all_contacts() const {
+  return std::all_of(role_.begin(), role_.end(), [](Role role) { return role == Role::Contact; });
+}
+
 double RowList::deepest() const {
   double depth = 0;
   for (std::size_t i = 0; i < phi_.size(); ++i)
@@ -53,6 +57,37 @@ double RowList::drift() const {
   for (std::size_t i = 0; i < phi_.size(); ++i)
     if (role_[i] == Role::Joint) worst = std::max(worst, std::fabs(phi_[i]));
   return worst;
+}
+
+double RowList::rate(std::size_t row, std::span<const double> v) const {
+  const auto dimension = static_cast<std::size_t>(dimension_);
+  double sum = 0;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const std::int32_t body = (side == 0 ? body_a_ : body_b_)[row];
+    if (body == MLCP_WORLD) continue;
+    for (std::size_t i = 0; i < dimension; ++i)
+      sum += jacobian_[(2 * row + side) * dimension + i] * v[static_cast<std::size_t>(body) * dimension + i];
+  }
+  return sum;
+}
+
+void RowList::add_multiple(std::size_t row, double s, std::span<double> y) const {
+  const auto dimension = static_cast<std::size_t>(dimension_);
+  for (std::size_t side = 0; side < 2; ++side) {
+    const std::int32_t body = (side == 0 ? body_a_ : body_b_)[row];
+    if (body == MLCP_WORLD) continue;
+    for (std::size_t i = 0; i < dimension; ++i)
+      y[static_cast<std::size_t>(body) * dimension + i] += s * jacobian_[(2 * row + side) * dimension + i];
+  }
+}
+
+void RowList::push(double stiffness, double damping, std::span<const double> v, std::span<double> force) const {
+  for (std::size_t i = 0; i < phi_.size(); ++i)
+    if (phi_[i] < 0) add_multiple(i, std::max(0.0, -stiffness * phi_[i] - damping * rate(i, v)), force);
+}
+
+void RowList::apply_normal_matrix(std::span<const double> x, std::span<double> y) const {
+  for (std::size_t i = 0; i < phi_.size(); ++i) add_multiple(i, rate(i, x), y);
 }
 
 void RowList::add_to(const Problem& problem, double h, double stabilisation) const {

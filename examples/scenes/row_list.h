@@ -38,10 +38,16 @@ class RowList {
   /// r by the time stepping of paper (2.5) with step h and stabilisation K, then mlcp_problem_rows_add.
   void add_to(const Problem& problem, double h, double stabilisation) const;
 
+  /// Adds the forces of springs and dampers that stand for contacts, Jᵀ max(0, −s φ − d J v) where φ < 0.
+  void push(double stiffness, double damping, std::span<const double> v, std::span<double> force) const;
+  /// y ← y + JᵀJ x
+  void apply_normal_matrix(std::span<const double> x, std::span<double> y) const;
+
   /// Adds the actions that were told.
   void draw(Drawing& to) const { to.actions.insert(to.actions.end(), actions_.begin(), actions_.end()); }
 
   std::int32_t count() const { return static_cast<std::int32_t>(phi_.size()); }
+  bool all_contacts() const;
   double deepest() const;  // −φ of the deepest contact or limit, at least 0
   double drift() const;    // |φ| of the worst joint
 
@@ -49,6 +55,10 @@ class RowList {
   enum class Role { Joint, Contact, Motor };
   void add(Role role, std::int32_t body_a, std::int32_t body_b, std::span<const double> jacobian_a, std::span<const double> jacobian_b,
            double phi, double limit, std::int32_t feature);
+
+  /// Jᵢ v and y ← y + s Jᵢᵀ
+  double rate(std::size_t row, std::span<const double> v) const;
+  void add_multiple(std::size_t row, double s, std::span<double> y) const;
 
   std::int32_t dimension_;
   std::vector<Role> role_;

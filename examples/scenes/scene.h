@@ -24,6 +24,16 @@ class Scene {
   const mlcp_report& finish();
   const mlcp_report& step(double h);
 
+  /// A spring and a damper in place of every contact, N/m and N s/m.
+  struct Springs {
+    double stiffness, damping;
+  };
+  /// A step of the penalty method of paper (2.1) instead, to compare: forces at the present state, v⁺ = v + h M⁻¹Q, q⁺ = q + h v⁺.
+  /// fails: both, std::logic_error where the scene has joints, motors or friction.
+  void step_by_penalty(double h, const Springs& springs);
+  /// With a longer step nothing comes to rest, if all contacts listed now are closed: h = 2 (√(1 + ζ²) − ζ)/ω, ω² = s λ(M⁻¹JᵀJ) the largest, ζ = d ω/(2 s). INFINITY without contacts.
+  double largest_step_by_penalty(const Springs& springs) const;
+
   const mlcp_problem* problem() const { return problem_.get(); }
   const mlcp_mask* start() const { return stepped_ ? start_.get() : nullptr; }
   const mlcp_solver* solver() const { return solver_.get(); }
@@ -83,6 +93,8 @@ class Scene {
   double stabilisation = 0.2;
 
  private:
+  RowList rows_for_springs() const;
+
   std::int32_t dimension_, rows_of_contact_;
   FrictionLaw law_;
   Problem problem_;

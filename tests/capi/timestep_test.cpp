@@ -64,6 +64,45 @@ TEST(TimeStep, RowsRefused) {
   EXPECT_EQ(mlcp_timestep_rows(1, 1, 0, 0, nullptr, nullptr, nullptr), MLCP_OK);
 }
 
+TEST(TimeStep, RestitutionTurnsTheSpeedOfRowsThatCloseFastEnough) {
+  const double h = 0.5, slowest = 0.25, e[] = {0.5, 0.5, 0.5, 0.5, 0};
+  const double phi[] = {1, 1.5, -0.1, 0, 0}, rate[] = {-2, -2, -0.25, 3, -4};
+  double r[] = {-2, -3, 0.04, 0, 0};  // closes just so; stays open; too slow; opens; does not bounce
+  ASSERT_EQ(mlcp_timestep_restitution(h, slowest, 5, e, phi, rate, nullptr, r), MLCP_OK);
+  const double expected[] = {1, -3, 0.04, 0, 0};
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(r[i], expected[i]) << i;
+  // on a belt that moves away at 1 m/s: J v before = rate - phi_t = -3, after at least 0.5 * 2 - 1
+  const double phi_t[] = {1};
+  r[0] = -3;
+  ASSERT_EQ(mlcp_timestep_restitution(h, slowest, 1, e, phi, rate, phi_t, r), MLCP_OK);
+  EXPECT_EQ(r[0], 0);
+  // what pushes an overlap apart faster than it would bounce stays
+  const double deep[] = {-1};
+  r[0] = 7;
+  ASSERT_EQ(mlcp_timestep_restitution(h, slowest, 1, e, deep, rate, nullptr, r), MLCP_OK);
+  EXPECT_EQ(r[0], 7);
+}
+
+TEST(TimeStep, RestitutionRefused) {
+  const double e[] = {1, 1.5}, fine[] = {0, 0}, fast[] = {-1, -1}, bad[] = {0, not_a_number};
+  double r[] = {7, 7};
+  const auto call = [&](double h, double slowest, int32_t count, const double* restitution, const double* phi, const double* rate,
+                        const double* phi_t) { return mlcp_timestep_restitution(h, slowest, count, restitution, phi, rate, phi_t, r); };
+  EXPECT_EQ(call(1, 0, 2, e, fine, fast, nullptr), MLCP_ERROR_ARGUMENT);
+  EXPECT_EQ(call(0, 0, 1, e, fine, fast, nullptr), MLCP_ERROR_ARGUMENT);
+  EXPECT_EQ(call(1, -1, 1, e, fine, fast, nullptr), MLCP_ERROR_ARGUMENT);
+  EXPECT_EQ(call(1, 0, -1, e, fine, fast, nullptr), MLCP_ERROR_RANGE);
+  EXPECT_EQ(call(1, 0, 2, fine, bad, fast, nullptr), MLCP_ERROR_ARGUMENT);
+  EXPECT_EQ(call(1, 0, 2, fine, fine, bad, nullptr), MLCP_ERROR_ARGUMENT);
+  EXPECT_EQ(call(1, 0, 2, fine, fine, fast, bad), MLCP_ERROR_ARGUMENT);
+  EXPECT_EQ(call(1, 0, 1, nullptr, fine, fast, nullptr), MLCP_ERROR_NULL);
+  EXPECT_EQ(call(1, 0, 1, e, nullptr, fast, nullptr), MLCP_ERROR_NULL);
+  EXPECT_EQ(call(1, 0, 1, e, fine, nullptr, nullptr), MLCP_ERROR_NULL);
+  EXPECT_EQ(mlcp_timestep_restitution(1, 0, 1, e, fine, fast, nullptr, nullptr), MLCP_ERROR_NULL);
+  EXPECT_EQ(call(1, 0, 0, nullptr, nullptr, nullptr, nullptr), MLCP_OK);
+  for (const double value : r) EXPECT_EQ(value, 7);
+}
+
 TEST(TimeStep, SpringIsImplicitEuler) {
   const double h = 0.01, s = 300, d = 7, phi = 0.02;
   double compliance = 0, r = 0;

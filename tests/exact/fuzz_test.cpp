@@ -171,7 +171,7 @@ constexpr Family families[] = {
     {"reduced", Data::exact, reduced},
     {"reals", Data::rounded, reals},
     {"badly_scaled", Data::scaled, badly_scaled},
-    {"nearly_dependent", Data::scaled, nearly_dependent, 0.02},
+    {"nearly_dependent", Data::scaled, nearly_dependent, 0.001},
 };
 
 INSTANTIATE_TEST_SUITE_P(Exact, Fuzz, testing::ValuesIn(families), [](const auto& chosen) { return std::string(chosen.param.name); });

@@ -168,7 +168,7 @@ def cell(answers):
 
 def is_right(answer):
     """Of the library, which tells apart what has a solution and what has none."""
-    accepted = {"either": ("solved", "infeasible"), "honest": ("solved",)}.get(answer.expected, (answer.expected,))
+    accepted = {"either": ("solved", "infeasible")}.get(answer.expected, (answer.expected,))
     return answer.note in accepted
 
 

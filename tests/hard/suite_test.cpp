@@ -36,7 +36,6 @@ bool fits(mlcp_outcome outcome, Fate fate) {
     // only a singular mass can be, which may be what is told
     case Fate::unbounded: return outcome == MLCP_UNBOUNDED || outcome == MLCP_NOT_POSITIVE_DEFINITE;
     case Fate::told: return outcome == MLCP_SOLVED || outcome == MLCP_INFEASIBLE;
-    case Fate::honest: return outcome == MLCP_SOLVED || outcome == MLCP_ITERATION_LIMIT;
   }
   return false;
 }

@@ -219,6 +219,99 @@ TEST(ClosedForm, a_small_swing_of_a_pendulum_has_its_period_at_first_order_in_h_
   EXPECT_GE(order(error, 0.01), 0.9);
 }
 
+constexpr Sphere bouncing = {0.05};
+
+/// A ball above the ground that bounces on it.
+class Ball : public RigidScene {
+ public:
+  Ball(double height, double restitution)
+      : RigidScene(Motion::Upright, {solid(bouncing, 1, {{0, 0, bouncing.radius + height}})}), restitution_(restitution) {}
+  double height() const { return frame(0).origin[2] - bouncing.radius; }
+  double rises() const { return velocity_of(0)[2]; }
+  void draw(Drawing&) const override {}
+
+ protected:
+  void add_rows(RowList&) const override {}
+  void add_contacts(ContactList& contacts) const override {
+    add_contact(contacts, MLCP_WORLD, 0, contact(Plane{}, {}, bouncing, frame(0).origin), {.restitution = restitution_});
+  }
+
+ private:
+  double restitution_;
+};
+
+TEST(ClosedForm, a_ball_bounces_to_e2_of_its_height_and_then_to_e4_at_first_order_in_h) {
+  const double height = 1, e = 0.7;
+  const auto error = [&](double h) {
+    Ball ball(height, e);
+    double worst = 0, before = 0;
+    for (int bounces = 0, step = 0; bounces < 2 && step < std::lround(3 / h); ++step) {
+      EXPECT_EQ(ball.step(h).outcome, MLCP_SOLVED);
+      EXPECT_GE(ball.height(), -1e-12);
+      if (before > 0 && ball.rises() <= 0) worst = std::max(worst, std::fabs(ball.height() - height * std::pow(e, 2 * ++bounces)));
+      before = ball.rises();
+    }
+    return worst;
+  };
+  EXPECT_LE(error(1e-3), 0.02 * height);
+  EXPECT_GT(error(1e-2), 0);
+  EXPECT_LE(error(1e-4), 0.3 * error(1e-3));
+}
+
+/// Balls in a row on a table without friction, the first one on its way to the others.
+class Cradle : public RigidScene {
+ public:
+  Cradle(std::int32_t balls, double apart, double restitution, double speed)
+      : RigidScene(Motion::Flat, row(balls, apart)), restitution_(restitution) {
+    use(tight());
+    set_velocity(0, rate_along(speed * axes[0], {0, 0, 0}));
+  }
+  double speed(std::int32_t ball) const { return velocity_of(ball)[0]; }
+  void draw(Drawing&) const override {}
+
+ protected:
+  void add_rows(RowList&) const override {}
+  void add_contacts(ContactList& contacts) const override {
+    for (std::int32_t i = 1; i < std::ssize(bodies()); ++i)
+      add_contact(contacts, i - 1, i, contact(bouncing, frame(i - 1).origin, bouncing, frame(i).origin), {.restitution = restitution_});
+  }
+
+ private:
+  static std::vector<RigidBody> row(std::int32_t balls, double apart) {
+    std::vector<RigidBody> made;
+    for (std::int32_t i = 0; i < balls; ++i) made.push_back(solid(bouncing, 1, {{i * (2 * bouncing.radius + apart), 0, 0}}));
+    return made;
+  }
+  double restitution_;
+};
+
+TEST(ClosedForm, two_balls_part_with_e_times_the_speed_at_which_they_met) {
+  const double v = 2;
+  for (const double e : {0.0, 0.5, 1.0}) {
+    Cradle cradle(2, 0.1, e, v);
+    run(cradle, 0.01, 0.2);
+    EXPECT_NEAR(cradle.speed(0), (1 - e) / 2 * v, 1e-12) << e;
+    EXPECT_NEAR(cradle.speed(1), (1 + e) / 2 * v, 1e-12) << e;
+  }
+}
+
+TEST(ClosedForm, a_cradle_passes_the_blow_on_where_its_balls_do_not_touch) {
+  const double v = 2;
+  Cradle cradle(4, 0.05, 1, v);
+  run(cradle, 0.01, 0.2);
+  for (const std::int32_t ball : {0, 1, 2}) EXPECT_NEAR(cradle.speed(ball), 0, 1e-12);
+  EXPECT_NEAR(cradle.speed(3), v, 1e-12);
+}
+
+TEST(ClosedForm, touching_balls_share_the_blow_and_keep_momentum_and_energy) {
+  const double v = 2;
+  Cradle cradle(3, 0, 1, v);
+  run(cradle, 0.01, 0.01);
+  EXPECT_NEAR(cradle.speed(0), -v / 3, 1e-12);
+  EXPECT_NEAR(cradle.speed(1), 2 * v / 3, 1e-12);
+  EXPECT_NEAR(cradle.speed(2), 2 * v / 3, 1e-12);
+}
+
 TEST(ClosedForm, a_slider_crank_is_where_its_crank_puts_it) {
   const auto error = [](double h) {
     Linkage linkage;

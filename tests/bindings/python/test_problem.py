@@ -149,11 +149,15 @@ def test_time_stepping():
     r = mlcp.timestep_rows(0.1, [0.5, -0.5], [1.0, 1.0], stabilisation=0.2)
     np.testing.assert_allclose(r, [-0.5 / 0.1 - 1, 0.2 * 0.5 / 0.1 - 1])
     np.testing.assert_allclose(mlcp.timestep_rows(0.1, [0.5], unilateral=False), [-0.2 * 0.5 / 0.1])
+    r = [-5.0, -1.0, 0.0]
+    np.testing.assert_allclose(mlcp.timestep_restitution(0.1, r, [0.5, 0.1, 0.0], [-4.0, -2.0, -0.1], 0.5, slowest=0.2), [-5, 1, 0])
+    assert r == [-5, -1, 0]
     compliance, r = mlcp.timestep_spring(0.1, 100.0, 5.0, 0.01)
     assert compliance == pytest.approx(1 / (0.1 * (0.1 * 100 + 5))) and r == pytest.approx(-100 * 0.01 / (0.1 * 100 + 5))
     assert mlcp.timestep_erp_cfm(0.1, 0.2, 1e-5, 0.01) == pytest.approx((1e-4, -0.02))
     for refused in (lambda: mlcp.timestep_rows(0.0, [1.0]), lambda: mlcp.timestep_spring(0.1, 0.0, 0.0, 0.0),
-                    lambda: mlcp.timestep_erp_cfm(0.1, 2.0, 0.0, 0.0)):
+                    lambda: mlcp.timestep_erp_cfm(0.1, 2.0, 0.0, 0.0),
+                    lambda: mlcp.timestep_restitution(0.1, [0.0], [0.0], [-1.0], [1.5])):
         with pytest.raises(mlcp.ArgumentError):
             refused()
 

@@ -14,8 +14,7 @@ enum class Fate {
   solved,
   infeasible,
   unbounded,
-  told,   ///< so near the border of feasibility that either is right within the tolerance, as long as it is true
-  honest  ///< more than double precision may hold: solved or a limit, but nothing that is not true
+  told  ///< so near the border of feasibility that either is right within the tolerance, as long as it is true
 };
 
 struct Case {

@@ -20,6 +20,7 @@ from ._core import (
     scenes,
     timestep_erp_cfm,
     timestep_rows,
+    timestep_restitution,
     timestep_spring,
 )
 from ._core import version as __version__
@@ -86,6 +87,7 @@ __all__ = [
     "solve_qp",
     "timestep_erp_cfm",
     "timestep_rows",
+    "timestep_restitution",
     "timestep_spring",
     "write_fclib",
 ]

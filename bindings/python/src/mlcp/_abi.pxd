@@ -156,6 +156,7 @@ cdef extern from "mlcp.h" nogil:
     # time stepping
     mlcp_status mlcp_timestep_momentum(mlcp_problem *, double, int32_t, const double *, const double *)
     mlcp_status mlcp_timestep_rows(double, double, int32_t, int32_t, const double *, const double *, double *)
+    mlcp_status mlcp_timestep_restitution(double, double, int32_t, const double *, const double *, const double *, const double *, double *)
     mlcp_status mlcp_timestep_spring(double, double, double, double, double *, double *)
     mlcp_status mlcp_timestep_erp_cfm(double, double, double, double, double *, double *)
 

@@ -29,6 +29,37 @@ def timestep_rows(double h, phi, phi_t=None, *, double stabilisation=0.2, bint u
     return r
 
 
+def timestep_restitution(double h, r, phi, rate, restitution, phi_t=None, *, double slowest=0.0):
+    """r of contacts that bounce, by Newton's law: max(r, −e dφ/dt − ∂φ/∂t) where φ + h dφ/dt ≤ 0 and dφ/dt < −slowest.
+
+    Parameters
+    ----------
+    h : float
+        Step, s, > 0.
+    r, phi, phi_t : (count,) arrays
+        As `timestep_rows` gives and takes them; phi_t None: 0.
+    rate : (count,) array
+        dφ/dt before the step, m/s: J v + ∂φ/∂t.
+    restitution : (count,) array or float
+        e in 0 … 1.
+    slowest : float
+        m/s; slower contacts do not bounce.
+
+    Returns
+    -------
+    (count,) array
+        The new r, m/s.
+    """
+    cdef cnp.ndarray result = doubles(r, "r", -1).copy()
+    cdef cnp.ndarray gap = doubles(phi, "phi", result.shape[0])
+    cdef cnp.ndarray before = doubles(rate, "rate", result.shape[0])
+    cdef cnp.ndarray e = doubles(np.broadcast_to(restitution, result.shape[0]), "restitution", result.shape[0])
+    cdef cnp.ndarray moved = None if phi_t is None else doubles(phi_t, "phi_t", result.shape[0])
+    if mlcp_timestep_restitution(h, slowest, size32(result.shape[0], "length of r"), f64(e), f64(gap), f64(before), f64(moved), f64(result)):
+        raise errors.ArgumentError(f"h = {h}, slowest = {slowest} or an entry of restitution, phi, rate, phi_t or r is not legal")
+    return result
+
+
 def timestep_spring(double h, double stiffness, double damping, double phi):
     """Compliance and r of a spring (N/m) and damper (N·s/m), integrated implicitly: 1/(h(h s + d)) and −s φ/(h s + d)."""
     cdef double compliance = 0, r = 0

@@ -1143,6 +1143,16 @@ unsafe extern "C" {
         phi_t: *const f64,
         r: *mut f64,
     ) -> mlcp_status;
+    pub fn mlcp_timestep_restitution(
+        h: f64,
+        slowest: f64,
+        count: i32,
+        restitution: *const f64,
+        phi: *const f64,
+        rate: *const f64,
+        phi_t: *const f64,
+        r: *mut f64,
+    ) -> mlcp_status;
     pub fn mlcp_timestep_spring(
         h: f64,
         stiffness: f64,

@@ -31,6 +31,28 @@ pub fn rows(h: f64, stabilisation: f64, unilateral: bool, phi: &[f64], phi_t: Op
     check(unsafe { sys::mlcp_timestep_rows(h, stabilisation, i32::from(unilateral), count, phi.as_ptr(), phi_t, r.as_mut_ptr()) })
 }
 
+/// Newton's law of restitution for unilateral rows, after [`rows`]: where `φᵢ + h rateᵢ ≤ 0` and `rateᵢ < −slowest`, `rᵢ` becomes
+/// `max(rᵢ, −restitutionᵢ rateᵢ − ∂φᵢ/∂t)`. `rate`: dφ/dt before the step, m/s, that is `J v + ∂φ/∂t`; `restitution`: 0 to 1.
+pub fn restitution(
+    h: f64,
+    slowest: f64,
+    restitution: &[f64],
+    phi: &[f64],
+    rate: &[f64],
+    phi_t: Option<&[f64]>,
+    r: &mut [f64],
+) -> Result<()> {
+    check_length("restitution", restitution.len(), phi.len())?;
+    check_length("rate", rate.len(), phi.len())?;
+    check_length("phi_t", phi_t.map_or(phi.len(), <[f64]>::len), phi.len())?;
+    check_length("r", r.len(), phi.len())?;
+    let count = int("the length of phi", phi.len())?;
+    let phi_t = phi_t.map_or(std::ptr::null(), <[f64]>::as_ptr);
+    let (e, phi, rate, r) = (restitution.as_ptr(), phi.as_ptr(), rate.as_ptr(), r.as_mut_ptr());
+    // SAFETY: `count` numbers in each array that there is.
+    check(unsafe { sys::mlcp_timestep_restitution(h, slowest, count, e, phi, rate, phi_t, r) })
+}
+
 /// A spring (`stiffness` s ≥ 0, N/m) and damper (`damping` d ≥ 0, N·s/m), not both 0, integrated implicitly over a step of `h` seconds:
 /// `Σ = 1 / (h (h s + d))`, `r = −s φ / (h s + d)`.
 pub fn spring(h: f64, stiffness: f64, damping: f64, phi: f64) -> Result<SoftRow> {

@@ -253,6 +253,9 @@ fn time_step_helpers() -> mlcp::Result<()> {
     let mut r = [0.0; 2];
     mlcp::timestep::rows(0.5, 0.5, false, &[1.0, -1.0], Some(&[0.25, 0.0]), &mut r)?;
     assert_eq!(r, [-1.25, 1.0]);
+    let mut bounced = [-2.0, -2.0];
+    mlcp::timestep::restitution(0.5, 0.1, &[0.5, 0.5], &[1.0, 9.0], &[-4.0, -4.0], None, &mut bounced)?;
+    assert_eq!(bounced, [2.0, -2.0]);
     let spring = mlcp::timestep::spring(0.5, 2.0, 1.0, 4.0)?;
     assert_eq!((spring.compliance, spring.r), (1.0, -4.0));
     let soft = mlcp::timestep::erp_cfm(0.5, 0.25, 1.0, 2.0)?;
