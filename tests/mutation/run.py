@@ -79,7 +79,7 @@ MUTATIONS = {
     "Newton: whole steps only": (NEWTON, "if (share > 0) flips = proximal_.largest", "if (false) flips = proximal_.largest"),
     "Newton: share never smaller": (NEWTON, "      ++share;\n", ""),
     "Newton: point not looked at again": (NEWTON, "if (finish(island) == Ending::settled) return Ending::settled;\n    if (flips_.empty())", "return Ending::settled;\n    if (flips_.empty())"),
-    "Newton: violated rows without impulse pass": (NEWTON, "error <= refined && empty_rows_hold(island) ?", "error <= refined ?"),
+    "Newton: violated rows without impulse pass": (NEWTON, "error <= enough && empty_rows_hold(island) ?", "error <= enough ?"),
     "Newton: start lost when it gives up": (NEWTON, "  if (ending != Ending::settled) {\n    basis_.values.regularise(*basis_.pattern, island, 0, 0);\n    go_back(island);", "  if (ending != Ending::settled) {\n    go_back(island);"),
     "partial step: the least instead of the most": (PROXIMAL, "return da > db ||", "return da < db ||"),
     "flips: below the lower bound": (PROXIMAL, "if (gamma < k.lo[o]) flips[count++] = {o, ActiveSet::at_lower};", ""),
