@@ -21,7 +21,7 @@ NEWTON, PROXIMAL = ("core/solve/newton.cpp", "core/solve/proximal.cpp")
 TESTS = ("unit_tests", "property_tests")
 
 # name: file, text that stands there exactly once, what takes its place. Not among them: what only costs steps, as Newton's patience, which the limit of
-# iterations and the same fallback replace.
+# iterations and the same fallback replace; and what changes nothing: rows at rest have no part in a direction, so that they never block.
 MUTATIONS = {
     "step to w = 0: sign": (RATIO, "arrive(-set.w[entering] / slopes[entering]", "arrive(set.w[entering] / slopes[entering]"),
     "step to w = 0: not for dependent rows": (RATIO, "if (!direction.dependent) arrive(", "arrive("),
@@ -33,7 +33,6 @@ MUTATIONS = {
     "blocking: upper bounds forgotten": (RATIO, "if (slope > 0 && k.hi[o] < infinity)", "if (false)"),
     "blocking: distance to the wrong bound": (RATIO, "std::max(k.hi[o] - basis.gamma(o), 0.0)", "std::max(k.lo[o] - basis.gamma(o), 0.0)"),
     "blocking: last instead of first": (RATIO, "if (std::abs(distance) > step.length * std::abs(slope) ||", "if (std::abs(distance) < step.length * std::abs(slope) ||"),
-    "blocking: rows at rest too": (RATIO, "if (state[o] != ActiveSet::active) continue;", ""),
     "ties: greatest index": (RATIO, "row(o) < row(step.blocking)", "row(o) > row(step.blocking)"),
     "printed rule: satisfied rows never block": (RATIO, "if (rule == MLCP_PIVOT_PRINTED && !direction.dependent)", "if (false)"),
     "printed rule: at the lower bound, slope": (RATIO, "w >= -zero && slope < 0", "w >= -zero && slope > 0"),
