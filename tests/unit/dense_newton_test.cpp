@@ -1,0 +1,75 @@
+// Where it says that it is done, every row is where its impulse and its slack belong: what a wrong flip leaves, the sparse way would mend unseen.
+#include "solve/dense_newton.h"
+
+#include <gtest/gtest.h>
+
+#include "support/dense.h"
+#include "support/random_problem.h"
+
+namespace support {
+namespace {
+
+constexpr double zero = 1e-9;
+
+struct Tally {
+  int done = 0, rows_at_upper = 0;
+};
+
+/// Runs every island of the problem from the mask (NULL: from a guess).
+void run(const mlcp::Problem& p, const mlcp::Mask* start, Tally& tally) {
+  mlcp::Components components{mlcp::Memory()};
+  components.update(p, nullptr);
+  mlcp::DenseResponse response{mlcp::Memory()};
+  response.prepare(p, components);
+  const Reduced reduced = reduce(dense(p));
+  for (int c = 0; c < components.count(); ++c) {
+    if (!response.compute(p, c)) continue;
+    mlcp::DenseIsland s = response.island(c);
+    mlcp::Counts counts;
+    mlcp::DenseNewton newton(s, zero, counts);
+    newton.start(p, start);
+    if (!newton.solve(start != nullptr)) continue;
+    ++tally.done;
+    for (int i = 0; i < s.m; ++i) {
+      Real w = reduced.b[s.row[i]], size = reduced.size[s.row[i]] + std::abs(w);
+      for (int j = 0; j < s.m; ++j) {
+        const Real term = reduced.A(s.row[i], s.row[j]) * s.gamma[j];
+        w += term;
+        size += std::abs(term);
+      }
+      EXPECT_GE(s.gamma[i], s.lo[i]);
+      EXPECT_LE(s.gamma[i], s.hi[i]);
+      if (s.response(i, i) == 0) continue;  // what no impulse can change is for the measurement to judge
+      EXPECT_TRUE(s.gamma[i] == s.lo[i] || w <= 2 * zero * size) << "row " << i << " could push less";
+      EXPECT_TRUE(s.gamma[i] == s.hi[i] || w >= -2 * zero * size) << "row " << i << " could push more";
+      tally.rows_at_upper += s.state[i] == mlcp::ActiveSet::at_upper;
+    }
+  }
+}
+
+/// Every row has finite bounds, near what the problem asks for.
+mlcp::Problem boxes(Random& random) {
+  mlcp::Problem p = random_problem(random, {.rows_least = 3, .rows_most = 8, .prescribed = 0, .duplicate = 0});
+  for (std::int32_t i = 0; i < p.m(); ++i) {
+    p.lo[i] = -random.uniform();
+    p.hi[i] = p.lo[i] + random.uniform(0.1, 1);
+  }
+  return p;
+}
+
+TEST(DenseNewton, EndsWithEveryRowWhereItBelongs) {
+  Tally tally;
+  for (int seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const mlcp::Problem p = boxes(random);
+    const mlcp::Mask start = random_mask(random, p.m());
+    run(p, nullptr, tally);
+    run(p, &start, tally);
+  }
+  EXPECT_GT(tally.done, 500);
+  EXPECT_GT(tally.rows_at_upper, 300);
+}
+
+}  // namespace
+}  // namespace support
