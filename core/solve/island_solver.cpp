@@ -112,7 +112,7 @@ class Run {
     }
     Newton newton(basis_, limits_, end_.counts);
     end_.method = MLCP_METHOD_NEWTON;
-    end_.outcome = newton.solve(island_);
+    end_.outcome = newton.solve(island_, warm);
     end_.epsilon = newton.epsilon();
     semidefinite_ = newton.semidefinite();
     if (end_.outcome == MLCP_NOT_POSITIVE_DEFINITE) end_.indefinite = basis_.factor.failed_position(island_);

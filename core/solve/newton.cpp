@@ -11,8 +11,8 @@ namespace {
 
 /// Full steps may go on so often without fewer changes than ever before.
 constexpr int patience = 10;
-/// Where rows depend on each other, the interior points are next.
-constexpr int patience_where_dependent = 3;
+/// Where rows depend on each other and the start is only a guess: the interior points are next.
+constexpr int patience_with_guesses = 3;
 /// Refined points as good as this are judged row by row; worse ones stand on a factor that cannot be trusted.
 constexpr double refined = 1e-13;
 constexpr double first_epsilon = 1e-2, reduction = 0.3;
@@ -43,7 +43,7 @@ void Newton::go_back(const Island& island) {
 Newton::Ending Newton::full_steps(const Island& island, double drop) {
   std::size_t fewest = SIZE_MAX;
   int share = 0;  // 2^−share of the changes are made
-  const int most = drop > 0 ? patience : patience_where_dependent;
+  const int most = drop > 0 || warm_ ? patience : patience_with_guesses;
   for (int left = most;;) {
     stopped_ = limits_.check(counts_, 0);
     if (stopped_ != MLCP_SOLVED) return Ending::stopped;
@@ -189,7 +189,8 @@ Newton::Ending Newton::interior(const Island& island) {
   return sharp(island, 2);
 }
 
-mlcp_outcome Newton::solve(const Island& island) {
+mlcp_outcome Newton::solve(const Island& island, bool warm) {
+  warm_ = warm;
   keep(island);
   proximal_.enter(island);
   proximal_.center_here(island);
@@ -215,6 +216,7 @@ mlcp_outcome Newton::solve(const Island& island) {
 mlcp_outcome Newton::resume(const Island& island, std::span<const Flip> flips, double epsilon) {
   proximal_.enter(island);
   proximal_.resume(epsilon);
+  warm_ = true;
   feasible_ = false;
   Ending ending = basis_.change(island, flips, epsilon > 0 ? 0 : dependent_pivot, counts_) > 0 && epsilon == 0 ? Ending::dependent : Ending::settled;
   keep(island);

@@ -22,7 +22,8 @@ class Newton {
 
   /// before: states, and impulses where they are known (x of the rows).
   /// SOLVED: the basis holds the answer. ITERATION_LIMIT: it gave up, and the active set is the best start that it knows.
-  mlcp_outcome solve(const Island& island);
+  /// warm: the start solved a problem nearby.
+  mlcp_outcome solve(const Island& island, bool warm);
   /// Goes on from an answer that the factor with this ε belongs to, after numbers of rows have changed: `flips` first, then full steps.
   /// SOLVED: the basis holds the answer. ITERATION_LIMIT: it takes more than that.
   mlcp_outcome resume(const Island& island, std::span<const Flip> flips, double epsilon);
@@ -54,6 +55,7 @@ class Newton {
   Proximal proximal_;
   double delta_ = 0;
   bool feasible_ = false;  // interior points have shown it
+  bool warm_ = false;
   std::span<const Flip> flips_;  // of the last finish
   mlcp_outcome stopped_ = MLCP_SOLVED;
 };
