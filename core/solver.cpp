@@ -188,7 +188,7 @@ void Solver::State::rescue(const SolveInput& input, Watch& watch, Crew& crew, ml
   pivoting.method = MLCP_METHOD_SIMPLEX;
   const SolveInput part{problem, &given_up, pivoting, input.contradiction};
   try {
-    exact.analysis.run(problem, &given_up, true, {}, watch.poll());
+    if (!exact.analysis.covers(problem, &given_up, true)) exact.analysis.run(problem, &given_up, true, {}, watch.poll());
   } catch (const Stopped&) {
     for (std::size_t s = 0; s < main.ends.size(); ++s)
       if (main.ends[s].crowded) result.island_outcome[s] = watch.stopped();

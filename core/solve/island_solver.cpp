@@ -23,24 +23,31 @@ class Run {
 
   void solve(bool warm, Array<mlcp_pivot>* trace) {
     go(warm, trace);
-    end_.kept = end_.outcome == MLCP_SOLVED && !end_.crowded && end_.method != MLCP_METHOD_PGS && end_.epsilon <= sharp_epsilon && !semidefinite_ &&
+    end_.kept = end_.outcome == MLCP_SOLVED && !end_.crowded && end_.method != MLCP_METHOD_PGS && end_.epsilon <= sharp_epsilon && !end_.semidefinite &&
                 input_.settings.impulses != MLCP_IMPULSES_LEAST_NORM && input_.settings.method != MLCP_METHOD_SIMPLEX;
   }
 
-  /// From the factor that is there. before: Basis::reload.
-  void solve_again(const Mask& start, double epsilon, bool kept, Array<mlcp_pivot>* trace) {
-    const auto flips = ask(start, kept);
-    if (kept) {
+  /// From the factor that is there, where `before` has kept one: a few full steps, else a few pivots from the same active set, which is close.
+  /// before: Basis::reload.
+  void solve_again(const Mask& start, const IslandEnd& before, Array<mlcp_pivot>* trace) {
+    const auto flips = ask(start, before.kept);
+    if (before.kept) {
       Newton newton(basis_, limits_, end_.counts);
       end_.method = MLCP_METHOD_NEWTON;
-      end_.epsilon = epsilon;
-      end_.outcome = newton.resume(island_, flips, epsilon);
+      end_.epsilon = before.epsilon;
+      end_.outcome = newton.resume(island_, flips, before.epsilon);
       end_.kept = end_.outcome == MLCP_SOLVED;
       if (end_.outcome != MLCP_ITERATION_LIMIT) return;
       limits_.restart(end_.counts);
       ask(start, false);
     }
-    solve(true, trace);
+    if (before.semidefinite || before.method == MLCP_METHOD_PGS || input_.settings.method == MLCP_METHOD_NEWTON) return solve(true, trace);
+    if (island_.crowded) {
+      give_up();
+      return;
+    }
+    pivot(trace);
+    if (end_.outcome == MLCP_ITERATION_LIMIT) try_again(trace);
   }
 
  private:
@@ -52,12 +59,21 @@ class Run {
     }
     if (method == MLCP_METHOD_PGS && sweep()) return;
     if (newton(warm)) return;
-    end_.gave_up = true;
-    end_.crowded = island_.crowded;
+    give_up();
     if (island_.crowded) return;
     limits_.restart(end_.counts);
     pivot(trace);
-    if (end_.outcome != MLCP_ITERATION_LIMIT) return;
+    if (end_.outcome == MLCP_ITERATION_LIMIT) try_again(trace);
+  }
+
+  /// In favour of the pivoting method; a crowded island needs another order for that.
+  void give_up() {
+    end_.outcome = MLCP_ITERATION_LIMIT;
+    end_.gave_up = true;
+    end_.crowded = island_.crowded;
+  }
+
+  void try_again(Array<mlcp_pivot>* trace) {
     restart();
     pivot(trace);
   }
@@ -114,7 +130,7 @@ class Run {
     end_.method = MLCP_METHOD_NEWTON;
     end_.outcome = newton.solve(island_, warm);
     end_.epsilon = newton.epsilon();
-    semidefinite_ = newton.semidefinite();
+    end_.semidefinite = newton.semidefinite();
     if (end_.outcome == MLCP_NOT_POSITIVE_DEFINITE) end_.indefinite = basis_.factor.failed_position(island_);
     return end_.outcome != MLCP_ITERATION_LIMIT;
   }
@@ -146,7 +162,6 @@ class Run {
   const std::int32_t index_;
   IslandEnd& end_;
   const std::int32_t rows_;
-  bool semidefinite_ = false;
   Limits limits_;
 };
 
@@ -167,13 +182,12 @@ IslandEnd solve_island(const SolveInput& input, Basis& basis, CertificateCheck& 
 
 void solve_island_again(const SolveInput& input, Basis& basis, CertificateCheck& check, Watch& watch, std::int32_t index, const Mask& start,
                         Array<mlcp_pivot>* trace, IslandEnd& end) {
-  const double epsilon = end.epsilon;
-  const bool kept = end.kept;
+  const IslandEnd before = end;
   end = {};
   end.outcome = watch.stopped();
   if (end.outcome != MLCP_SOLVED) return;
   try {
-    Run(input, basis, check, watch, index, end).solve_again(start, epsilon, kept, trace);
+    Run(input, basis, check, watch, index, end).solve_again(start, before, trace);
   } catch (const Stopped&) {
     end.outcome = watch.stopped();
   }

@@ -12,6 +12,7 @@ struct IslandEnd {
   bool gave_up = false;                      ///< a method was left for another one
   bool crowded = false;                      ///< given up, and the pivoting method needs another analysis
   double epsilon = 0;                        ///< of the factor that is left
+  bool semidefinite = false;                 ///< that factor is of M + δ: pivoting cannot take over
   bool kept = false;                         ///< that factor and the basis belong to the answer
   std::int32_t certificate_rows = 0;         ///< in Workspace::certificate_row from the island's first ordinal on
   std::int32_t indefinite = -1;              ///< position of the velocity whose pivot is not positive

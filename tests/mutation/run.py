@@ -17,7 +17,8 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RATIO, FACTOR, KERNELS, BASIS = ("core/solve/ratio_test.cpp", "core/factorize/factor.cpp", "core/factorize/kernel_loops.h", "core/solve/basis.cpp")
 LDL, RESPONSE, DENSE_NEWTON = ("core/factorize/dense_ldl.h", "core/factorize/dense_response.cpp", "core/solve/dense_newton.cpp")
-NEWTON, PROXIMAL = ("core/solve/newton.cpp", "core/solve/proximal.cpp")
+NEWTON, PROXIMAL, INTERIOR = ("core/solve/newton.cpp", "core/solve/proximal.cpp", "core/solve/interior_point.cpp")
+EXTENDED, SYMBOLIC = ("core/solve/extended_simplex.cpp", "core/analyze/symbolic.cpp")
 TESTS = ("unit_tests", "property_tests")
 
 # name: file, text that stands there exactly once, what takes its place. Not among them: what only costs steps, as Newton's patience, which the limit of
@@ -87,10 +88,18 @@ MUTATIONS = {
     "line search: slope of the rows": (PROXIMAL, "f -= gamma * slope[o];", "f += gamma * slope[o];"),
     "line search: whole steps": (PROXIMAL, "const double t = search(island);", "const double t = 1;"),
     "line search: curvature of the rows": (PROXIMAL, "g += slope[o] * slope[o] /", "g -= slope[o] * slope[o] /"),
+    "interior points: residual not looked at": (INTERIOR, " && infeasibility_ <= feasible", ""),
+    "interior points: step of the slack": (INTERIOR, "- s - s / distance * sign * dgamma", "- s + s / distance * sign * dgamma"),
+    "interior points: active where the slack is": (INTERIOR, "basis_.work.slack[o] > a * (gamma - k.lo[o])", "basis_.work.slack[o] < a * (gamma - k.lo[o])"),
+    "interior points: compliance of the bounds": (INTERIOR, "-= basis_.work.slack[o] / (gamma - k.lo[o])", "+= basis_.work.slack[o] / (gamma - k.lo[o])"),
+    "extended: step away": (EXTENDED, "const int sign = image_[position(k)] < 0 ? 1 : -1;", "const int sign = image_[position(k)] < 0 ? -1 : 1;"),
+    "extended: upper bounds passed": (EXTENDED, "if (!below && !(gamma(o) > basis_->values.hi[o])) continue;", "if (!below) continue;"),
+    "extended: dependent rows start": (EXTENDED, "else if (pivot(o) > dependent * terms(o))", "else if (true)"),
+    "extended: satisfied forgotten": (EXTENDED, "if (magnitude(w) > forgiven) return certify", "if (true) return certify"),
+    "batches: of unequal rows": (SYMBOLIC, " || !equal(p - 1, p)", ""),
     "guess: sweeps on when the time is over": ("core/solve/gauss_seidel.cpp", " || limits_.check(counts_, 0) != MLCP_SOLVED", ""),
     "proximal: centre's sign": (PROXIMAL, "(-e * basis_.work.center[basis_.position(o)] - slack) / (sigma + e)", "(e * basis_.work.center[basis_.position(o)] - slack) / (sigma + e)"),
 }
-
 
 
 def copy_tree(work: pathlib.Path) -> None:
