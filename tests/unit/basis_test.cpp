@@ -34,6 +34,15 @@ TEST(Basis, ActivateAndDeactivateKeepTheFactorInStep) {
   EXPECT_EQ(b.counts.factorizations, 1);
 }
 
+TEST(Basis, ARowThatLeavesIsExactlyAtItsBound) {
+  const mlcp::Mask start = mask_of({MLCP_ROW_ACTIVE, MLCP_ROW_ACTIVE, MLCP_ROW_ACTIVE});
+  Based b(column(), &start);
+  b.basis.solve_point(b.island(), b.counts);
+  EXPECT_GT(b.basis.gamma(b.ordinal(0)), 1);
+  b.basis.deactivate(b.island(), b.ordinal(0), Set::at_lower, b.counts);
+  EXPECT_EQ(b.basis.gamma(b.ordinal(0)), 0);
+}
+
 TEST(Basis, AlwaysRefactorizeTogglesNothing) {
   Based b(column(), nullptr, settings(MLCP_PIVOT_DUAL, MLCP_REFACTORIZE_ALWAYS));
   for (const int row : {1, 0, 2}) b.basis.activate(b.island(), b.ordinal(row), b.counts);

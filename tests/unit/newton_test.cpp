@@ -116,6 +116,14 @@ TEST(Newton, InfeasibleCrowdedIslandGetsItsCertificate) {
   }
 }
 
+/// Too large an island for another look in extended precision.
+TEST(Newton, ViolatedRowThatNoImpulseMovesIsAProof) {
+  mlcp::Problem p = stack(40, 3);
+  add_row(p, {{0, 0}}, 1);
+  const Solution s = solve(p, with(MLCP_METHOD_NEWTON));
+  EXPECT_EQ(infeasible_fault(dense(p), s), "");
+}
+
 TEST(Newton, LeastNormLoadsTableLegsEqually) {
   mlcp::Problem p = empty_problem();
   add_body(p, 3, 1);
