@@ -289,7 +289,7 @@ MLCP_API mlcp_status mlcp_problem_rows_clear(mlcp_problem *problem);
  *   FINDEX    the bounds follow the normal impulse, -mu g_n <= g_T <= mu g_n, as with the findex of ODE, Bullet and DART
  *
  * facets: 0 takes settings.facets; else the cone is the pyramid of that many generators n + mu (t1 cos a + t2 sin a), a = 2 pi j / facets,
- * which is at least 3 and of no effect in the plane, where the cone is a pyramid already. Facets are internal: a contact keeps its rows.
+ * which is in 3 .. 1048576 and of no effect in the plane, where the cone is a pyramid already. Facets are internal: a contact keeps its rows.
  * A mask that disables the normal row leaves the contact out; one that disables a tangent row leaves its friction out. */
 typedef int32_t mlcp_friction;
 enum {
@@ -554,7 +554,7 @@ typedef struct mlcp_settings {
   mlcp_parallel_for parallel_for; /* the caller's threads instead of ours; NULL: none */
   void *parallel_context;
   int32_t facets;                /* of contacts that do not say; 0: the circular cone, by generators aimed at the slip until its error
-                                    is within the tolerance; else at least 3 */
+                                    is within the tolerance; else 3 .. 1048576 */
   int32_t max_shifts;            /* solves of the iteration for friction; 0: 300 */
 } mlcp_settings;
 

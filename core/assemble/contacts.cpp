@@ -7,8 +7,6 @@ namespace mlcp {
 
 namespace {
 
-constexpr std::int32_t most_facets = 1 << 20;
-
 /// What contacts of a call bring besides their rows.
 struct FrictionFields {
   Integers<mlcp_friction> model;

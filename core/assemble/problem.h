@@ -36,6 +36,9 @@ struct Body {
   std::int32_t sparse = 0;     ///< 0: dense mass; else 1 + the mlcp_triangle that the caller stores
 };
 
+/// Of a pyramid: directions 6 µrad apart at least, whose products with small numbers are in range.
+constexpr std::int32_t most_facets = 1 << 20;
+
 /// Rows row (normal) and row + 1 … row + dimension − 1 (tangents). What the model asks of the rows stands with them too: bounds of
 /// the tangents for MLCP_FRICTION_BOX, a Coupling each for MLCP_FRICTION_FINDEX.
 struct Contact {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "assemble/problem.h"
 #include "memory/error.h"
 
 namespace mlcp {
@@ -43,7 +44,8 @@ void check_settings(const Settings& settings) {
   if (settings.num_threads < 0 || settings.num_threads > most_threads) refuse("num_threads", settings.num_threads, "is not in 0 .. 1024");
   if (settings.max_iterations < 0) refuse("max_iterations", static_cast<double>(settings.max_iterations), "is negative");
   if (settings.max_work < 0) refuse("max_work", static_cast<double>(settings.max_work), "is negative");
-  if (settings.facets < 0 || settings.facets == 1 || settings.facets == 2) refuse("facets", settings.facets, "is neither 0 nor at least 3");
+  if (settings.facets < 0 || settings.facets > most_facets || settings.facets == 1 || settings.facets == 2)
+    refuse("facets", settings.facets, "is neither 0 nor in 3 .. 1048576");
   if (settings.max_shifts < 0) refuse("max_shifts", settings.max_shifts, "is negative");
   if (!(settings.max_seconds >= 0)) refuse("max_seconds", settings.max_seconds, "is negative");
 }

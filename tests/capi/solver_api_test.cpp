@@ -150,6 +150,8 @@ TEST_F(SolverApi, BadSettingsAreNamed) {
   refused([](mlcp_settings& x) { x.pivot_rule = -1; }, "pivot_rule");
   refused([](mlcp_settings& x) { x.refactorize = 2; }, "refactorize");
   refused([](mlcp_settings& x) { x.tolerance = 0; }, "tolerance");
+  refused([](mlcp_settings& x) { x.facets = 2; }, "facets");
+  refused([](mlcp_settings& x) { x.facets = INT32_MAX / 2; }, "facets");
   refused([](mlcp_settings& x) { x.tolerance = not_a_number; }, "tolerance");
   refused([](mlcp_settings& x) { x.tolerance = inf; }, "tolerance");
   refused([](mlcp_settings& x) { x.max_iterations = -1; }, "max_iterations");
