@@ -247,7 +247,7 @@ void ContactSolver::State::solve_with(const Problem& problem, const Mask* mask, 
 /// all of it, relative to nothing. One step of Jacobi's method on such velocities.
 void ContactSolver::State::settle_velocities(const Problem& problem) {
   for (std::int32_t j = 0; j < problem.n(); ++j) {
-    if (!(measure.velocity_error[j] > settled)) continue;
+    if (!(measure.velocity_error(j) > settled)) continue;
     for (std::int32_t t = problem.mass.pointers[j]; t < problem.mass.pointers[j + 1]; ++t) {
       const double mass = problem.mass.values[t];
       if (problem.mass.indices[t] != j || !(mass > 0)) continue;

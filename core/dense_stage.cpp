@@ -76,15 +76,15 @@ bool DenseStage::solve_island(const SolveInput& input, const Mask* start, std::i
 bool DenseStage::refine(std::int32_t c, const Measure& measure, bool rows_alone, Result& result) {
   DenseIsland s = response_.island(c);
   double momentum = 0, rows = 0;
-  for (std::int32_t p = 0; p < s.n; ++p) momentum = std::max(momentum, measure.velocity_error[s.velocity(p)]);
+  for (std::int32_t p = 0; p < s.n; ++p) momentum = std::max(momentum, measure.velocity_error(s.velocity(p)));
   for (std::int32_t i = 0; i < s.m; ++i) rows = std::max(rows, measure.error[s.row[i]]);
   if (std::max(momentum, rows) <= refined) return false;
   rows_alone |= momentum <= settled;
   for (std::int32_t p = 0; p < s.n; ++p) s.x[p] = rows_alone ? 0 : -measure.momentum_residual(s.velocity(p));
-  for (std::int32_t t = 0; t < *s.members; ++t) s.x[s.n + t] = -measure.w[s.row[s.member[t]]];
+  for (std::int32_t t = 0; t < *s.members; ++t) s.x_rows()[t] = -measure.w[s.row[s.member[t]]];
   DenseResponse::correct(s);
   for (std::int32_t p = 0; p < s.n; ++p) result.v[s.velocity(p)] += s.x[p];
-  for (std::int32_t t = 0; t < *s.members; ++t) result.gamma[s.row[s.member[t]]] += s.x[s.n + t];
+  for (std::int32_t t = 0; t < *s.members; ++t) result.gamma[s.row[s.member[t]]] += s.x_rows()[t];
   return true;
 }
 

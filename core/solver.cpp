@@ -260,7 +260,7 @@ void Solver::State::judge(const SolveInput& input) {
     double worst = 0;
     for (std::int32_t p = islands[s].first; p < islands[s].last; ++p) {
       const std::int32_t node = pattern.node[p];
-      const double e = node < problem.n() ? measure.velocity_error[node] : measure.error[node - problem.n()];
+      const double e = node < problem.n() ? measure.velocity_error(node) : measure.error[node - problem.n()];
       worst = e <= worst ? worst : e;
     }
     mlcp_outcome& outcome = result.island_outcome[s];

@@ -5,24 +5,26 @@
 namespace mlcp {
 namespace {
 
-std::int64_t triangle(std::int64_t size) { return size * (size - 1) / 2; }
-
-std::int64_t real_count(std::int64_t n, std::int64_t m) { return triangle(n) + 3 * n + m * n + m * m + triangle(m) + 6 * m + n + m; }
-std::int64_t integer_count(std::int64_t n, std::int64_t m) { return n + 4 * m; }
+std::int64_t real_count(std::int64_t m, std::int64_t blocks, std::int64_t panels) {
+  return BlockLdl::reals(blocks) + 12 * blocks + 16 * blocks * panels + 16 * panels * panels + BlockLdl::reals(panels) + 4 * panels + 5 * m +
+         4 * (blocks + panels) + 16 * blocks;
+}
+std::int64_t integer_count(std::int64_t m, std::int64_t blocks, std::int64_t panels) { return blocks + 3 * panels + m; }
 
 }  // namespace
 
 void DenseResponse::prepare(const Problem& problem, const Components& components) {
   components_ = &components;
   const std::int32_t n = problem.n(), count = components.count();
-  places_.resize(count);
+  places_.resize(count + 1);
   local_.assign(n + problem.m(), -1);
   std::int64_t reals = 0, integers = 0;
   for (std::int32_t c = 0; c < count; ++c) {
-    places_[c] = {reals, integers, components.row_pointers[c]};
+    places_[c] = {reals, integers, 0, components.row_pointers[c]};
     const std::int32_t own_n = components.velocity_count(c), own_m = components.row_count(c);
-    reals += real_count(own_n, own_m);
-    integers += integer_count(own_n, own_m);
+    const std::int32_t blocks = BlockLdl::blocks_of(own_n), panels = BlockLdl::blocks_of(own_m);
+    reals += real_count(own_m, blocks, panels);
+    integers += integer_count(own_m, blocks, panels);
     for (std::int32_t p = 0; p < own_n; ++p) local_[components.velocities[components.velocity_pointers[c] + p]] = own_n - 1 - p;
     for (std::int32_t i = 0; i < own_m; ++i) local_[n + components.rows[components.row_pointers[c] + i]] = i;
   }
@@ -30,10 +32,14 @@ void DenseResponse::prepare(const Problem& problem, const Components& components
   integers_.resize(integers);
   states_.resize(components.rows.size());
   members_.resize(count);
+  slots_.clear();
+  slots_.reserve((problem.mass.values.size() + n) / 2);
   for (std::int32_t c = 0; c < count; ++c) {
     DenseIsland s = island(c);
+    places_[c].slots = static_cast<std::int64_t>(slots_.size());
     find_envelopes(problem, s);
   }
+  places_[count].slots = static_cast<std::int64_t>(slots_.size());
 }
 
 DenseIsland DenseResponse::island(std::int32_t c) {
@@ -47,87 +53,98 @@ DenseIsland DenseResponse::island(std::int32_t c) {
   };
   DenseIsland s{};
   s.members = members_.data() + c;
-  const std::int64_t n = s.n = components_->velocity_count(c), m = s.m = components_->row_count(c);
+  s.kernels = kernels_;
+  s.n = components_->velocity_count(c);
+  const std::int64_t m = s.m = components_->row_count(c);
   s.ascending = components_->velocities.data() + components_->velocity_pointers[c];
   s.row = components_->rows.data() + components_->row_pointers[c];
-  s.mass.lower = take(real, triangle(n));
-  s.mass.inverse = take(real, n);
-  s.diagonal = take(real, n);
-  s.k = take(real, n);
-  s.y = take(real, m * n);
-  s.a = take(real, m * m);
-  s.active.lower = take(real, triangle(m));
-  for (double** part : {&s.active.inverse, &s.b, &s.size, &s.lo, &s.hi, &s.gamma}) *part = take(real, m);
-  s.x = take(real, n + m);
-  s.mass.first = take(integer, n);
-  for (std::int32_t** part : {&s.begin, &s.end, &s.active.first, &s.member}) *part = take(integer, m);
+  const std::int64_t blocks = s.blocks = BlockLdl::blocks_of(s.n), panels = s.panels = BlockLdl::blocks_of(s.m);
+  s.mass.lower = take(real, BlockLdl::reals(blocks));
+  for (double** part : {&s.mass.inverse, &s.reach, &s.k}) *part = take(real, 4 * blocks);
+  s.y = take(real, 16 * blocks * panels);
+  s.a = take(real, 16 * panels * panels);
+  s.active.lower = take(real, BlockLdl::reals(panels));
+  s.active.inverse = take(real, 4 * panels);
+  for (double** part : {&s.b, &s.size, &s.lo, &s.hi, &s.gamma}) *part = take(real, m);
+  s.x = take(real, 4 * (blocks + panels));
+  s.scaled = take(real, 16 * blocks);
+  s.mass.first = take(integer, blocks);
+  for (std::int32_t** part : {&s.begin, &s.end, &s.active.first}) *part = take(integer, panels);
+  s.member = take(integer, m);
   s.state = states_.data() + place.rows;
   return s;
 }
 
 void DenseResponse::find_envelopes(const Problem& problem, DenseIsland& s) {
   const SparseView mass = problem.mass_view(), jacobian = problem.jacobian_view();
-  for (std::int32_t p = 0; p < s.n; ++p) {
-    const std::int32_t j = s.velocity(p);
-    std::int32_t first = p;
-    for (std::int32_t t = mass.pointers[j]; t < mass.pointers[j + 1]; ++t) first = std::min(first, local_[mass.indices[t]]);
-    s.mass.first[p] = first;
+  for (std::int32_t b = 0; b < s.blocks; ++b) {
+    std::int32_t first = 4 * b;
+    for (std::int32_t p = 4 * b; p < std::min(4 * b + 4, s.n); ++p)
+      for (std::int32_t j = s.velocity(p), t = mass.pointers[j]; t < mass.pointers[j + 1]; ++t) {
+        const std::int32_t q = local_[mass.indices[t]];
+        if (q > p) continue;
+        first = std::min(first, q);
+        slots_.push_back({t, static_cast<std::int32_t>(s.mass.block(b) - s.mass.lower) + 4 * q + p - 4 * b});
+      }
+    s.mass.first[b] = first / 4;
   }
-  for (std::int32_t i = 0; i < s.m; ++i) {
-    s.begin[i] = s.n;
-    for (std::int32_t t = jacobian.pointers[s.row[i]]; t < jacobian.pointers[s.row[i] + 1]; ++t)
-      if (const std::int32_t p = local_[jacobian.indices[t]]; p >= 0) s.begin[i] = std::min(s.begin[i], p);
+  for (std::int32_t c = 0; c < s.panels; ++c) {
+    std::int32_t begin = 4 * s.blocks;
+    for (std::int32_t i = 4 * c; i < std::min(4 * c + 4, s.m); ++i)
+      for (std::int32_t t = jacobian.pointers[s.row[i]]; t < jacobian.pointers[s.row[i] + 1]; ++t)
+        if (const std::int32_t p = local_[jacobian.indices[t]]; p >= 0) begin = std::min(begin, p);
+    s.begin[c] = begin / 4;
   }
 }
 
-bool DenseResponse::compute(const Problem& problem, std::int32_t c) {
-  DenseIsland s = island(c);
-  if (!load_mass(problem, s)) return false;
-  for (std::int32_t i = 0; i < s.m; ++i) {
-    load_row(problem, s, i);
-    respond(s, i);
+bool DenseResponse::compute(const Problem& problem, std::int32_t component) {
+  DenseIsland s = island(component);
+  const std::int64_t slots = places_[component].slots;
+  if (!load_mass(problem, s, slots_.span().subspan(slots, places_[component + 1].slots - slots))) return false;
+  for (std::int32_t c = 0; c < s.panels; ++c) {
+    std::fill(s.panel(c) + 16 * s.begin[c], s.panel(c) + 16 * s.blocks, 0.0);
+    for (std::int32_t i = 4 * c; i < std::min(4 * c + 4, s.m); ++i) load_row(problem, s, i);
+    respond(s, c);
   }
   const SparseView sigma = problem.compliance_view();
   for (std::int32_t i = 0; i < s.m; ++i) {
     for (std::int32_t t = sigma.pointers[s.row[i]]; t < sigma.pointers[s.row[i] + 1]; ++t)
-      if (const std::int32_t j = local_[problem.n() + sigma.indices[t]]; j >= 0) s.a[static_cast<std::int64_t>(i) * s.m + j] += sigma.values[t];
+      if (const std::int32_t j = local_[problem.n() + sigma.indices[t]]; j >= 0) s.row_of_a(i)[j] += sigma.values[t];
     if (!(s.response(i, i) >= 0)) return false;
   }
   return true;
 }
 
-bool DenseResponse::load_mass(const Problem& problem, DenseIsland& s) {
-  const SparseView mass = problem.mass_view();
+bool DenseResponse::load_mass(const Problem& problem, DenseIsland& s, std::span<const Slot> slots) {
+  for (std::int32_t b = 0; b < s.blocks; ++b) std::fill(s.mass.block(b) + 16 * s.mass.first[b], s.mass.block(b + 1), 0.0);
+  for (const Slot& slot : slots) s.mass.lower[slot.to] = problem.mass.values[slot.from];
+  const auto diagonal = [&](std::int32_t p) -> double& { return s.mass.block(p / 4)[4 * p + p % 4]; };
   for (std::int32_t p = 0; p < s.n; ++p) {
-    const std::int32_t j = s.velocity(p);
-    double* row = s.mass.row(p);
-    std::fill(row + s.mass.first[p], row + p, 0.0);
-    double diagonal = 0;
-    for (std::int32_t t = mass.pointers[j]; t < mass.pointers[j + 1]; ++t) {
-      const std::int32_t q = local_[mass.indices[t]];
-      if (q < p) row[q] = mass.values[t];
-      if (q == p) diagonal = mass.values[t];
-    }
-    s.diagonal[p] = diagonal;
-    s.k[p] = problem.momentum[j];
-    if (!(s.mass.eliminate(p, diagonal) > 0)) return false;
+    s.k[p] = problem.momentum[s.velocity(p)];
+    s.reach[p] = std::abs(s.k[p] / diagonal(p));
   }
-  s.mass.forward(0, s.n, s.k);
+  for (std::int32_t p = s.n; p < 4 * s.blocks; ++p) {
+    s.k[p] = 0;
+    diagonal(p) = 1;
+  }
+  constexpr double positive[4] = {};
+  for (std::int32_t b = 0; b < s.blocks; ++b)
+    if (kernels_->block_eliminate(s.mass, b, positive) < 4) return false;
+  s.mass.forward(s.blocks, s.k);
   return true;
 }
 
-/// Row i of J into y; what it has from prescribed velocities goes into r, and that into b.
+/// Row i of J into its panel; what it has from prescribed velocities goes into r, and that into b.
 void DenseResponse::load_row(const Problem& problem, DenseIsland& s, std::int32_t i) {
   const SparseView jacobian = problem.jacobian_view();
   const std::int32_t row = s.row[i];
-  double* y = s.y + static_cast<std::int64_t>(i) * s.n;
+  double* const y = s.panel(i / 4) + i % 4;
   double r = problem.r[row], size = std::abs(r);
-  if (s.begin[i] < s.n) std::fill(y + s.begin[i], y + s.n, 0.0);
-  for (std::int32_t t = jacobian.pointers[row]; t < jacobian.pointers[row + 1]; ++t) {
+  for (std::int32_t t = jacobian.pointers[row], end = jacobian.pointers[row + 1]; t < end; ++t) {
     const std::int32_t j = jacobian.indices[t], p = local_[j];
     if (p >= 0) {
-      y[p] = jacobian.values[t];
-      size += std::abs(jacobian.values[t] * (problem.momentum[j] / s.diagonal[p]));
+      y[4 * p] = jacobian.values[t];
+      size += std::abs(jacobian.values[t]) * s.reach[p];
     } else {
       const double given = jacobian.values[t] * problem.given_velocity[j];
       r -= given;
@@ -140,91 +157,122 @@ void DenseResponse::load_row(const Problem& problem, DenseIsland& s, std::int32_
   s.hi[i] = problem.hi[row];
 }
 
-/// y := L⁻¹ y, and with it row i of A and bᵢ.
-void DenseResponse::respond(DenseIsland& s, std::int32_t i) {
-  double* y = s.y + static_cast<std::int64_t>(i) * s.n;
-  const std::int32_t begin = s.begin[i];
-  std::int32_t end = begin;  // behind what is not 0 so far: in a robot, the joints of other limbs end before their own begin
-  for (std::int32_t p = begin; p < s.n; ++p) {
-    const std::int32_t from = std::max(s.mass.first[p], begin);
-    if (from < end) y[p] -= dot(s.mass.row(p) + from, y + from, end - from);
-    if (y[p] != 0) end = p + 1;
+/// Y := L⁻¹ Y on panel c, and with it four rows of A and of b.
+void DenseResponse::respond(DenseIsland& s, std::int32_t c) {
+  double* const y = s.panel(c);
+  const std::int32_t begin = s.begin[c], end = s.end[c] = kernels_->panel_forward(s.mass, begin, s.blocks, y);
+  double sum[4];
+  kernels_->panel_scale(4 * (end - begin), y + 16 * begin, s.mass.inverse + 4 * begin, s.k + 4 * begin, s.scaled + 16 * begin, sum);
+  for (std::int32_t i = 4 * c; i < std::min(4 * c + 4, s.m); ++i) s.b[i] += sum[i - 4 * c];
+  for (std::int32_t d = 0; d <= c; ++d) {
+    const std::int32_t from = std::max(begin, s.begin[d]), to = std::min(end, s.end[d]);
+    double tile[16] = {};
+    if (from < to) kernels_->panel_product(4 * (to - from), s.scaled + 16 * from, s.panel(d) + 16 * from, tile);
+    if (d < c) {
+      for (std::int32_t r = 0; r < 4; ++r)
+        for (std::int32_t k = 0; k < 4; ++k) s.row_of_a(4 * c + r)[4 * d + k] = s.row_of_a(4 * d + k)[4 * c + r] = tile[4 * r + k];
+    } else {
+      for (std::int32_t r = 0; r < 4; ++r)
+        for (std::int32_t k = 0; k <= r; ++k) s.row_of_a(4 * c + r)[4 * c + k] = s.row_of_a(4 * c + k)[4 * c + r] = tile[4 * r + k];
+    }
   }
-  s.end[i] = end;
-  for (std::int32_t p = begin; p < end; ++p) s.x[p] = y[p] * s.mass.inverse[p];
-  double* a = s.a + static_cast<std::int64_t>(i) * s.m;
-  for (std::int32_t j = 0; j <= i; ++j) {
-    const std::int32_t from = std::max(begin, s.begin[j]), to = std::min(end, s.end[j]);
-    const double sum = from < to ? dot(s.x + from, s.y + static_cast<std::int64_t>(j) * s.n + from, to - from) : 0.0;
-    a[j] = s.a[static_cast<std::int64_t>(j) * s.m + i] = sum;
+}
+
+/// Loads block b of A on the members, with rows of the unit matrix behind the last one.
+void DenseResponse::load_active(DenseIsland& s, std::int32_t b) {
+  const std::int32_t count = std::min(4, *s.members - 4 * b);
+  double* const block = s.active.block(b);
+  std::fill(block + 16 * b, block + 16 * (b + 1), 0.0);
+  std::int32_t begin = 4 * b;
+  for (std::int32_t r = 0; r < 4; ++r) {
+    double* const row = block + r;
+    if (r >= count) {
+      for (std::int32_t q = 0; q < 4 * b + 4; ++q) row[4 * q] = q == 4 * b + r;
+      continue;
+    }
+    const double* const a = s.row_of_a(s.member[4 * b + r]);
+    for (std::int32_t q = 4 * b + r; q >= 0; --q) {
+      row[4 * q] = a[s.member[q]];
+      if (row[4 * q] != 0) begin = std::min(begin, q);
+    }
   }
-  if (begin < end) s.b[i] += dot(s.x + begin, s.k + begin, end - begin);
+  s.active.first[b] = begin / 4;
 }
 
 void DenseResponse::factor_active(DenseIsland& s, double drop) {
-  std::int32_t kept = 0;
-  for (std::int32_t t = 0; t < *s.members; ++t) {
-    const std::int32_t i = s.member[t];
-    double* row = s.active.row(kept);
-    std::int32_t begin = kept;
-    for (std::int32_t q = kept; q-- > 0;) {
-      row[q] = s.response(i, s.member[q]);
-      if (row[q] != 0) begin = q;
-    }
-    s.active.first[kept] = begin;
-    if (s.active.eliminate(kept, s.response(i, i)) > drop * s.response(i, i)) s.member[kept++] = i;
+  for (std::int32_t b = 0; 4 * b < *s.members;) {
+    load_active(s, b);
+    double least[4] = {};
+    for (std::int32_t r = 0; r < std::min(4, *s.members - 4 * b); ++r) least[r] = drop * s.response(s.member[4 * b + r], s.member[4 * b + r]);
+    const std::int32_t independent = s.kernels->block_eliminate(s.active, b, least);
+    if (independent == 4)
+      ++b;
+    else
+      std::copy(s.member + 4 * b + independent + 1, s.member + (*s.members)--, s.member + 4 * b + independent);
   }
-  *s.members = kept;
+}
+
+/// x := A⁻¹ x on the members, before: 0 behind them.
+void DenseResponse::solve_members(const DenseIsland& s, double* x) {
+  const std::int32_t blocks = BlockLdl::blocks_of(*s.members);
+  s.active.forward(blocks, x);
+  for (std::int32_t t = 0; t < 4 * blocks; ++t) x[t] *= s.active.inverse[t];
+  s.active.backward(blocks, x);
 }
 
 void DenseResponse::solve_active(DenseIsland& s) {
-  double* x = s.x + s.n;
+  double* const x = s.x_rows();
+  std::fill(x, x + 4 * s.panels, 0.0);
   for (std::int32_t t = 0; t < *s.members; ++t) x[t] = -s.b[s.member[t]];
   for (std::int32_t j = 0; j < s.m; ++j) {
     if (s.gamma[j] == 0) continue;
     for (std::int32_t t = 0; t < *s.members; ++t) x[t] -= s.response(s.member[t], j) * s.gamma[j];
   }
-  s.active.forward(0, *s.members, x);
-  for (std::int32_t t = 0; t < *s.members; ++t) x[t] *= s.active.inverse[t];
-  s.active.backward(*s.members, x);
+  solve_members(s, x);
   for (std::int32_t t = 0; t < *s.members; ++t) s.gamma[s.member[t]] = x[t];
 }
 
 double DenseResponse::schur(const DenseIsland& s, std::int32_t i) {
-  double *x = s.x, pivot = s.response(i, i);
+  double* const x = s.x;
+  double pivot = s.response(i, i);
+  const std::int32_t blocks = BlockLdl::blocks_of(*s.members);
+  std::fill(x, x + 4 * blocks, 0.0);
   for (std::int32_t t = 0; t < *s.members; ++t) x[t] = s.response(i, s.member[t]);
-  s.active.forward(0, *s.members, x);
+  s.active.forward(blocks, x);
   for (std::int32_t t = 0; t < *s.members; ++t) pivot -= x[t] * (x[t] * s.active.inverse[t]);
   return pivot;
 }
 
 void DenseResponse::velocities(const DenseIsland& s) {
-  std::copy(s.k, s.k + s.n, s.x);
-  for (std::int32_t i = 0; i < s.m; ++i) {
-    if (s.gamma[i] == 0) continue;
-    const double* y = s.y + static_cast<std::int64_t>(i) * s.n;
-    for (std::int32_t p = s.begin[i]; p < s.end[i]; ++p) s.x[p] += y[p] * s.gamma[i];
+  double* const v = s.x;
+  std::copy(s.k, s.k + 4 * s.blocks, v);
+  for (std::int32_t c = 0; c < s.panels; ++c) {
+    double g[4] = {};
+    std::copy(s.gamma + 4 * c, s.gamma + std::min(4 * c + 4, s.m), g);
+    if (g[0] == 0 && g[1] == 0 && g[2] == 0 && g[3] == 0) continue;
+    const double* const y = s.panel(c);
+    for (std::int32_t p = 4 * s.begin[c]; p < 4 * s.end[c]; ++p)
+      v[p] += (y[4 * p] * g[0] + y[4 * p + 1] * g[1]) + (y[4 * p + 2] * g[2] + y[4 * p + 3] * g[3]);
   }
-  for (std::int32_t p = 0; p < s.n; ++p) s.x[p] *= s.mass.inverse[p];
-  s.mass.backward(s.n, s.x);
+  for (std::int32_t p = 0; p < 4 * s.blocks; ++p) v[p] *= s.mass.inverse[p];
+  s.mass.backward(s.blocks, v);
 }
 
 void DenseResponse::correct(const DenseIsland& s) {
-  double *v = s.x, *g = s.x + s.n;
-  s.mass.forward(0, s.n, v);
-  for (std::int32_t t = 0; t < *s.members; ++t) {
-    const double* y = s.y + static_cast<std::int64_t>(s.member[t]) * s.n;
-    for (std::int32_t p = s.begin[s.member[t]]; p < s.end[s.member[t]]; ++p) g[t] -= y[p] * (v[p] * s.mass.inverse[p]);
-  }
-  s.active.forward(0, *s.members, g);
-  for (std::int32_t t = 0; t < *s.members; ++t) g[t] *= s.active.inverse[t];
-  s.active.backward(*s.members, g);
-  for (std::int32_t t = 0; t < *s.members; ++t) {
-    const double* y = s.y + static_cast<std::int64_t>(s.member[t]) * s.n;
-    for (std::int32_t p = s.begin[s.member[t]]; p < s.end[s.member[t]]; ++p) v[p] += y[p] * g[t];
-  }
+  double *const v = s.x, *const g = s.x_rows();
+  std::fill(v + s.n, g, 0.0);
+  s.mass.forward(s.blocks, v);
+  const auto entries = [&](std::int32_t t, const auto& visit) {  // of the column of Y that belongs to member t
+    const std::int32_t c = s.member[t] / 4;
+    const double* const y = s.panel(c) + s.member[t] % 4;
+    for (std::int32_t p = 4 * s.begin[c]; p < 4 * s.end[c]; ++p) visit(p, y[4 * p]);
+  };
+  for (std::int32_t t = 0; t < *s.members; ++t) entries(t, [&](std::int32_t p, double y) { g[t] -= y * (v[p] * s.mass.inverse[p]); });
+  std::fill(g + *s.members, g + 4 * s.panels, 0.0);
+  solve_members(s, g);
+  for (std::int32_t t = 0; t < *s.members; ++t) entries(t, [&](std::int32_t p, double y) { v[p] += y * g[t]; });
   for (std::int32_t p = 0; p < s.n; ++p) v[p] *= s.mass.inverse[p];
-  s.mass.backward(s.n, v);
+  s.mass.backward(s.blocks, v);
 }
 
 }  // namespace mlcp

@@ -2,7 +2,8 @@
 #include <span>
 
 #include "analyze/components.h"
-#include "factorize/dense_ldl.h"
+#include "factorize/block_ldl.h"
+#include "factorize/kernels.h"
 
 namespace mlcp {
 
@@ -15,28 +16,35 @@ namespace mlcp {
 struct DenseIsland {
   std::int32_t n, m;
   const std::int32_t *ascending, *row;  ///< the caller's
-  DenseLdl mass;
-  double *diagonal, *k;                ///< n: Mⱼⱼ; L⁻¹ k
-  double* y;                           ///< m rows of n: columns of Y
-  std::int32_t *begin, *end;           ///< m: where a row of y is not 0
-  double* a;                           ///< m rows of m, symmetric
+  std::int32_t blocks, panels;         ///< fours of velocities and of rows; what fills the last ones is 0
+  BlockLdl mass;
+  double *reach, *k;                   ///< 4 blocks: |v₀| = |kⱼ/Mⱼⱼ|; L⁻¹ k
+  double* y;                           ///< panels of four columns of Y: entry p of row 4c + r at panel(c)[4p + r]
+  std::int32_t *begin, *end;           ///< panels: blocks where one is not 0
+  double* a;                           ///< 4 panels rows of 4 panels, symmetric
   double *b, *size;                    ///< m; size: |r| + |J||v₀| + 2|J||v_given| as in KktValues
   double *lo, *hi;
-  DenseLdl active;                     ///< of A on the rows `member`
+  BlockLdl active;                     ///< of A on the rows `member`
   std::int32_t* member;
   std::int32_t* members;                ///< how many
   double* gamma;
   std::uint8_t* state;                 ///< m: where each row stands, for the method
-  double* x;                           ///< n + m: scratch
+  double* x;                           ///< 4 blocks + 4 panels: scratch
+  double* scaled;                      ///< 16 blocks: D⁻¹ times a panel
+  const Kernels* kernels;
 
   std::int32_t velocity(std::int32_t p) const { return ascending[n - 1 - p]; }  ///< the caller's
-  double response(std::int32_t i, std::int32_t j) const { return a[static_cast<std::int64_t>(i) * m + j]; }
+  double* panel(std::int32_t c) const { return y + std::int64_t{16} * blocks * c; }
+  double* row_of_a(std::int32_t i) const { return a + std::int64_t{4} * panels * i; }
+  double response(std::int32_t i, std::int32_t j) const { return row_of_a(i)[j]; }
+  /// Entries of x that belong to rows.
+  double* x_rows() const { return x + 4 * blocks; }
 };
 
 /// The numbers of small islands. Each has its own part, so that several threads may work on different ones.
 class DenseResponse {
  public:
-  explicit DenseResponse(const Memory& m) : places_(m), local_(m), reals_(m), integers_(m), members_(m), states_(m) {}
+  explicit DenseResponse(const Memory& m) : places_(m), local_(m), slots_(m), reals_(m), integers_(m), members_(m), states_(m) {}
 
   /// Room for every component, and what follows from the pattern. allocates
   void prepare(const Problem& problem, const Components& components);
@@ -45,7 +53,7 @@ class DenseResponse {
 
   /// Loads and factors M, forms A and b.  false: M is not positive definite, or some Aᵢᵢ is negative; 0 is legal: a row between
   /// prescribed bodies.
-  /// cost: Σ over the envelope of M of the lengths it meets; m² n / 2 where the rows' velocities overlap.
+  /// cost: Σ over the envelope of M of the lengths it meets; m² n / 2 where the rows' velocities overlap; all by panels of four.
   bool compute(const Problem& problem, std::int32_t c);
 
   /// Factors A on the active rows in their order; those with a pivot of at most drop · Aᵢᵢ depend on the others and are left out of `member`.
@@ -56,22 +64,30 @@ class DenseResponse {
   static void velocities(const DenseIsland& island);
   /// Aᵢᵢ less what the members take from it, for a row that is none.
   static double schur(const DenseIsland& island, std::int32_t i);
-  /// (δv, δγ) of momentum residuals k + Jᵀγ − M v in x[0, n) and of −w on the members in x[n, n + m), both replaced by the correction.
+  /// (δv, δγ) of momentum residuals k + Jᵀγ − M v in x[0, n) and of −w on the members in x_rows(), both replaced by the correction.
   static void correct(const DenseIsland& island);
 
  private:
   struct Place {
-    std::int64_t reals, integers;
+    std::int64_t reals, integers, slots;  // the slots end where those of the next one begin
     std::int32_t rows;
   };
+  /// An entry of M on or below the diagonal of its island: values[from] belongs at mass.lower[to].
+  struct Slot {
+    std::int32_t from, to;
+  };
   void find_envelopes(const Problem& problem, DenseIsland& island);
-  bool load_mass(const Problem& problem, DenseIsland& island);
+  bool load_mass(const Problem& problem, DenseIsland& island, std::span<const Slot> slots);
   void load_row(const Problem& problem, DenseIsland& island, std::int32_t i);
-  void respond(DenseIsland& island, std::int32_t i);
+  void respond(DenseIsland& island, std::int32_t panel);
+  static void load_active(DenseIsland& island, std::int32_t b);
+  static void solve_members(const DenseIsland& island, double* x);
 
+  const Kernels* kernels_ = &kernels_for_this_cpu();
   const Components* components_ = nullptr;
   Array<Place> places_;
   Array<std::int32_t> local_;  // n: velocity → its number in its island, −1 in none; m behind it: rows
+  Array<Slot> slots_;
   Array<double> reals_;
   Array<std::int32_t> integers_;
   Array<std::int32_t> members_;  // by component

@@ -1,9 +1,10 @@
 #include "factorize/kernels.h"
 
 #include "factorize/kernel_loops.h"
+#include "factorize/panel_loops.h"
 
 namespace mlcp {
 
-const Kernels portable_kernels{forward, combine, backward, rank_one};
+const Kernels portable_kernels{forward, combine, backward, rank_one, panel_forward, block_eliminate, panel_scale, panel_product};
 
 }  // namespace mlcp

@@ -1,6 +1,8 @@
 #pragma once
 #include <cstdint>
 
+#include "factorize/block_ldl.h"
+
 namespace mlcp {
 
 /// Columns first .. last − 1 that nest: column j has the rows of column first from the (j − first)-th on, so that what all of them act on
@@ -21,7 +23,7 @@ struct FactorArrays {
   double* gathered;              ///< room for a stretch from its first column on
 };
 
-/// The hot loops, once for every x86-64 CPU and once for those with AVX2. Sums go into four interleaved parts in both, products are
+/// The hot loops of sparse factors and of small dense ones, once for every x86-64 CPU and once for those with AVX2. Sums go into four interleaved parts in both, products are
 /// not fused: both give the same bits. Each returns the entries that it touched.
 struct Kernels {
   /// y := y − C(:,j) y_j/d_j for the columns of a stretch that are in, in order.
@@ -34,6 +36,16 @@ struct Kernels {
   ///     d' = d + σ w_j²,  c' = c + σ w_j w,  w := w − (w_j/d) c,  σ := σ d/d'.
   /// after: w is 0 on the stretch's columns; negative: a pivot cancels or changes sign, the factor is stale.
   std::int64_t (*rank_one)(const FactorArrays&, const Stretch&, double* w, double& sigma);
+
+  /// Y := L⁻¹ Y for a panel of four vectors, y[4q + lane], that are 0 before block `begin`.  returns the block behind the last one that is not 0.
+  std::int32_t (*panel_forward)(const BlockLdl&, std::int32_t begin, std::int32_t blocks, double* y);
+  /// Replaces block b of the matrix (entries on and below the diagonal) by that of L. before: the blocks above are done.  returns how many of its rows
+  /// have pivots above least[0..3] before the first that has not: 4, or the block is spoilt.
+  std::int32_t (*block_eliminate)(const BlockLdl&, std::int32_t b, const double* least);
+  /// scaled := d⁻¹ y, sum[lane] := Σ_q scaled[4q + lane] k[q], over `count` entries q.
+  void (*panel_scale)(std::int64_t count, const double* y, const double* inverse, const double* k, double* scaled, double* sum);
+  /// tile(r, lane) := Σ_q x[4q + r] y[4q + lane] over `count` entries q.
+  void (*panel_product)(std::int64_t count, const double* x, const double* y, double* tile);
 };
 
 /// The table for the CPU this runs on.

@@ -3,10 +3,11 @@
 
 #if defined(__x86_64__)
 #include "factorize/kernel_loops.h"
+#include "factorize/panel_loops.h"
 
 namespace mlcp {
 
-const Kernels avx2_kernels{forward, combine, backward, rank_one};
+const Kernels avx2_kernels{forward, combine, backward, rank_one, panel_forward, block_eliminate, panel_scale, panel_product};
 
 }  // namespace mlcp
 #endif

@@ -49,7 +49,7 @@ std::int32_t Cone::nearest_facet(Tangent t) const {
 
 Tangent Cone::against(Tangent slip) const {
   const double size = length(slip);
-  if (!(size > 0)) return {};
+  if (!(size > 0 && size < std::numeric_limits<double>::infinity())) return {};
   const Tangent d{-slip.x / size, planar ? 0 : -slip.y / size};
   return pyramid() ? direction(nearest_facet(d)) : d;
 }

@@ -20,15 +20,21 @@ void Measure::momentum(const Problem& problem, std::span<const double> v, std::s
   const SparseView mass = problem.mass_view(), jacobian = problem.jacobian_view();
   sum_.resize(n);
   size_.resize(n);
+  diagonal_.resize(n);
   for (std::int32_t j = 0, t = 0; j < n; ++j) {
-    double sum = -problem.momentum[j], size = std::abs(sum);
+    const double k = problem.momentum[j];
+    double sum = -k, size = std::abs(k);
+    std::int32_t diagonal = -1;
     for (const std::int32_t end = mass.pointers[j + 1]; t < end; ++t) {
-      const double term = mass.values[t] * v[mass.indices[t]];
+      const std::int32_t other = mass.indices[t];
+      const double term = mass.values[t] * v[other];
       sum += term;
       size += std::abs(term);
+      if (other == j) diagonal = t;
     }
     sum_[j] = sum;
     size_[j] = size;
+    diagonal_[j] = diagonal < 0 ? 0 : mass.values[diagonal];
   }
   for (std::int32_t i = 0; i < m; ++i) {
     if (gamma[i] == 0) continue;
@@ -38,40 +44,35 @@ void Measure::momentum(const Problem& problem, std::span<const double> v, std::s
       size_[jacobian.indices[t]] += std::abs(term);
     }
   }
-  velocity_error.resize(n);
   for (const Body& body : problem.bodies) {
-    for (std::int32_t j = body.offset; j < body.offset + body.dimension; ++j) {
-      if (body.prescribed) {
-        velocity_error[j] = 0;
-        continue;
-      }
-      const double absolute = or_infinite(std::abs(sum_[j])), size = size_[j];
-      const double relative = size > 0 && size < infinity ? absolute / size : size == 0 ? absolute : infinity;
-      velocity_error[j] = relative;
-      e.momentum_residual = std::max(e.momentum_residual, absolute);
-      if (e.worst_velocity < 0 || relative > e.momentum || (relative == e.momentum && j < e.worst_velocity)) e.worst_velocity = j;
-      e.momentum = std::max(e.momentum, relative);
+    const std::int32_t begin = body.offset, end = begin + body.dimension;
+    if (body.prescribed) {
+      std::fill(sum_.begin() + begin, sum_.begin() + end, 0.0);
+      continue;
+    }
+    for (std::int32_t j = begin; j < end; ++j) {
+      if (e.worst_velocity < 0) e.worst_velocity = j;
+      const double absolute = std::abs(sum_[j]);
+      if (!(absolute <= e.momentum_residual)) e.momentum_residual = or_infinite(absolute);
+      if (absolute <= e.momentum * size_[j] && size_[j] < infinity) continue;  // without a division
+      const double relative = velocity_error(j);
+      if (!(relative > e.momentum)) continue;
+      e.worst_velocity = j;
+      e.momentum = relative;
     }
   }
+}
+
+double Measure::velocity_error(std::int32_t j) const {
+  const double absolute = or_infinite(std::abs(sum_[j])), size = size_[j];
+  return absolute == 0 ? 0 : size == 0 ? absolute : size < infinity && absolute < infinity ? absolute / size : infinity;
 }
 
 void Measure::rows(const Problem& problem, const Mask* enabled, std::span<const double> v, std::span<const double> gamma,
                    Errors& e) {
   const std::int32_t n = problem.n(), m = problem.m();
-  const SparseView mass = problem.mass_view(), jacobian = problem.jacobian_view(), sigma = problem.compliance_view();
-  // size_ := 1/M_jj, 0 for prescribed velocities
-  size_.resize(n);
-  for (const Body& body : problem.bodies) {
-    for (std::int32_t j = body.offset; j < body.offset + body.dimension; ++j) {
-      double diagonal = 0;
-      if (!body.sparse)  // a dense block
-        diagonal = mass.values[mass.pointers[j] + j - body.offset];
-      else
-        for (std::int32_t t = mass.pointers[j]; t < mass.pointers[j + 1]; ++t)
-          if (mass.indices[t] == j) diagonal = mass.values[t];
-      size_[j] = body.prescribed ? 0 : diagonal > 0 ? diagonal : 1;
-    }
-  }
+  const SparseView jacobian = problem.jacobian_view(), sigma = problem.compliance_view();
+  reach_.assign(n, -1.0);  // |v| + |v₀| where a row has asked for it
   w.assign(m, 0.0);
   scale.assign(m, 0.0);
   a.assign(m, 0.0);
@@ -83,10 +84,17 @@ void Measure::rows(const Problem& problem, const Mask* enabled, std::span<const 
     double sum = -problem.r[i], size = std::abs(problem.r[i]), square = problem.sigma(i);
     for (std::int32_t t = jacobian.pointers[i]; t < jacobian.pointers[i + 1]; ++t) {
       const std::int32_t j = jacobian.indices[t];
-      const double x = jacobian.values[t], v0 = size_[j] > 0 ? problem.momentum[j] / size_[j] : v[j];
+      const double x = jacobian.values[t];
+      if (reach_[j] < 0) {
+        if (problem.prescribed(j))
+          diagonal_[j] = 0;
+        else if (!(diagonal_[j] > 0))
+          diagonal_[j] = 1;
+        reach_[j] = std::abs(v[j]) + std::abs(diagonal_[j] > 0 ? problem.momentum[j] / diagonal_[j] : v[j]);
+      }
       sum += x * v[j];
-      size += std::abs(x) * (std::abs(v[j]) + std::abs(v0));
-      if (size_[j] > 0) square += (x / size_[j]) * x;
+      size += std::abs(x) * reach_[j];
+      if (diagonal_[j] > 0) square += (x / diagonal_[j]) * x;
     }
     for (std::int32_t t = sigma.pointers[i]; t < sigma.pointers[i + 1]; ++t) {
       const double term = sigma.values[t] * gamma[sigma.indices[t]];

@@ -23,9 +23,9 @@ struct Errors {
 /// Workspace and per-row numbers of one measurement.
 class Measure {
  public:
-  explicit Measure(const Memory& m) : w(m), scale(m), a(m), residual(m), error(m), velocity_error(m), sum_(m), size_(m) {}
+  explicit Measure(const Memory& m) : w(m), scale(m), a(m), residual(m), error(m), sum_(m), size_(m), diagonal_(m), reach_(m) {}
 
-  /// after: w, scale, a, error (rows) and velocity_error hold what the maxima were taken over; rows left out by enabled are 0.
+  /// after: w, scale, a, error (rows) and velocity_error() are what the maxima were taken over; rows left out by enabled are 0.
   Errors run(const Problem& problem, const Mask* enabled, std::span<const double> v, std::span<const double> gamma);
 
   /// The maxima over rows, of residual and error as they are now.
@@ -36,15 +36,19 @@ class Measure {
   Array<double> a;               ///< Σⱼ Jᵢⱼ²/Mⱼⱼ + Σᵢᵢ; where that is 0 the largest of the problem, or 1
   Array<double> residual;        ///< |median(w, a(γ − lo), a(γ − hi))| per row
   Array<double> error;           ///< residual / scale per row
-  Array<double> velocity_error;  ///< per velocity
+  /// |M v − Jᵀγ − k|ⱼ over the size of its terms, of the last run; 0 on prescribed bodies.
+  double velocity_error(std::int32_t j) const;
   /// (M v − Jᵀγ − k)ⱼ of the last run.
   double momentum_residual(std::int32_t j) const { return sum_[j]; }
 
  private:
+  /// after: diagonal_ is Mⱼⱼ, for rows(), where it becomes 0 on prescribed bodies.
   void momentum(const Problem& problem, std::span<const double> v, std::span<const double> gamma, Errors& e);
   void rows(const Problem& problem, const Mask* enabled, std::span<const double> v, std::span<const double> gamma, Errors& e);
   Array<double> sum_;
   Array<double> size_;
+  Array<double> diagonal_;
+  Array<double> reach_;
 };
 
 /// median(w, a(γ − lo), a(γ − hi)): 0 exactly where w > 0 ⇒ γ = lo, w < 0 ⇒ γ = hi, lo ≤ γ ≤ hi holds.

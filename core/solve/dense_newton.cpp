@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "factorize/dot.h"
 #include "solve/basis.h"
 
 namespace mlcp {
@@ -33,7 +34,7 @@ void DenseNewton::guess() {
     bool changed = false;
     for (std::int32_t i = 0; i < s_.m; ++i) {
       if (s_.response(i, i) == 0) continue;
-      const double w = s_.b[i] + dot(s_.a + static_cast<std::int64_t>(i) * s_.m, s_.gamma, s_.m);
+      const double w = s_.b[i] + dot(s_.row_of_a(i), s_.gamma, s_.m);
       const double gamma = s_.gamma[i] - w / s_.response(i, i);
       const auto to = gamma <= s_.lo[i] ? ActiveSet::at_lower : gamma >= s_.hi[i] ? ActiveSet::at_upper : ActiveSet::active;
       changed |= s_.state[i] != to;
@@ -51,7 +52,7 @@ std::int32_t DenseNewton::flip() {
   // slacks first: they are those of the impulses as they are
   for (std::int32_t i = 0; i < s_.m; ++i) {
     if (s_.state[i] == ActiveSet::active) continue;
-    const double* a = s_.a + static_cast<std::int64_t>(i) * s_.m;
+    const double* a = s_.row_of_a(i);
     double w = s_.b[i], size = s_.size[i] + std::abs(w);
     for (std::int32_t j = 0; j < s_.m; ++j) {
       w += a[j] * s_.gamma[j];

@@ -16,7 +16,8 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RATIO, FACTOR, KERNELS, BASIS = ("core/solve/ratio_test.cpp", "core/factorize/factor.cpp", "core/factorize/kernel_loops.h", "core/solve/basis.cpp")
-LDL, RESPONSE, DENSE_NEWTON = ("core/factorize/dense_ldl.h", "core/factorize/dense_response.cpp", "core/solve/dense_newton.cpp")
+PANELS, BLOCKS, RESPONSE = ("core/factorize/panel_loops.h", "core/factorize/block_ldl.h", "core/factorize/dense_response.cpp")
+DENSE_NEWTON = "core/solve/dense_newton.cpp"
 NEWTON, PROXIMAL, INTERIOR = ("core/solve/newton.cpp", "core/solve/proximal.cpp", "core/solve/interior_point.cpp")
 EXTENDED, SYMBOLIC = ("core/solve/extended_simplex.cpp", "core/analyze/symbolic.cpp")
 TESTS = ("unit_tests", "property_tests")
@@ -56,20 +57,23 @@ MUTATIONS = {
     "basis: a removal is not made": (BASIS, "fresh = factor.remove(position(f.o), counts.work) != FactorStatus::ok;", ""),
     "basis: an insertion is not made": (BASIS, "const FactorStatus status = factor.insert(position(f.o), counts.work, drop);", "const FactorStatus status = FactorStatus::ok;"),
     "basis: a row that leaves keeps its impulse": (BASIS, "  rest(o, to);\n", "  set.state[o] = to;\n"),
-    "dense factor: pivot without its row": (LDL, "d -= l * r[q];", ""),
-    "dense factor: row of L not divided": (LDL, "r[q] = l;", ""),
-    "dense factor: last entry left out": (LDL, "dot(r + from, row(q) + from, q - from)", "dot(r + from, row(q) + from, q - from - 1)"),
-    "dense forward: sign": (LDL, "x[p] -= dot(row(p) + from", "x[p] += dot(row(p) + from"),
-    "dense backward: sign": (LDL, "x[q] -= r[q] * t", "x[q] += r[q] * t"),
+    "dense factor: pivot without its row": (PANELS, "s[c] -= z[c] * scaled;", ""),
+    "dense factor: row of L not divided": (PANELS, "*reinterpret_cast<Lanes*>(z) = scaled;", ""),
+    "dense factor: last entry left out": (PANELS, "q < 4 * end; ++q) {\n    double* const z", "q < 4 * end - 1; ++q) {\n    double* const z"),
+    "dense factor: pivots within a block": (PANELS, "s[j] -= s[c][j] * unit;", "s[j] -= unit * unit[j];"),
+    "dense forward: sign": (PANELS, "s2 -= left[2] * x;", "s2 += left[2] * x;"),
+    "dense forward: within a block": (PANELS, "s[3] -= own[11] * s[2];", ""),
+    "dense forward: one vector": (BLOCKS, "s[r] -= l[r] * x[q];", "s[r] += l[r] * x[q];"),
+    "dense backward: sign": (BLOCKS, "x[q] -= above", "x[q] += above"),
     "dense response: compliance forgotten": (RESPONSE, "if (const std::int32_t j = local_[problem.n() + sigma.indices[t]]; j >= 0)", "if (const std::int32_t j = -1; j >= 0)"),
     "dense response: given velocity forgotten": (RESPONSE, "r -= given;", ""),
-    "dense response: row ends early": (RESPONSE, "if (y[p] != 0) end = p + 1;", "if (y[p] != 0) end = p;"),
-    "dense response: dependent rows stay": (RESPONSE, "> drop * s.response(i, i)) s.member[kept++] = i;", "> -infinity) s.member[kept++] = i;"),
+    "dense response: row ends early": (PANELS, "!= 0) end = b + 1;", "!= 0) end = b;"),
+    "dense response: dependent rows stay": (RESPONSE, "least[r] = drop * ", "least[r] = -1e300 * "),
     "dense response: impulses at rest": (RESPONSE, "x[t] -= s.response(s.member[t], j) * s.gamma[j];", "x[t] += s.response(s.member[t], j) * s.gamma[j];"),
     "dense response: pivot of a row outside": (RESPONSE, "pivot -= x[t] * (x[t] * s.active.inverse[t]);", "pivot += x[t] * (x[t] * s.active.inverse[t]);"),
-    "dense response: velocities": (RESPONSE, "s.x[p] += y[p] * s.gamma[i];", "s.x[p] -= y[p] * s.gamma[i];"),
-    "dense correction: of the impulses": (RESPONSE, "g[t] -= y[p] * (v[p] * s.mass.inverse[p]);", "g[t] += y[p] * (v[p] * s.mass.inverse[p]);"),
-    "dense correction: of the velocities": (RESPONSE, "v[p] += y[p] * g[t];", "v[p] -= y[p] * g[t];"),
+    "dense response: velocities": (RESPONSE, "v[p] += (y[4 * p] * g[0]", "v[p] -= (y[4 * p] * g[0]"),
+    "dense correction: of the impulses": (RESPONSE, "g[t] -= y * (v[p] * s.mass.inverse[p]);", "g[t] += y * (v[p] * s.mass.inverse[p]);"),
+    "dense correction: of the velocities": (RESPONSE, "v[p] += y * g[t];", "v[p] -= y * g[t];"),
     "dense Newton: leaves to the other bound": (DENSE_NEWTON, "rest(i, s_.gamma[i] < s_.lo[i] ?", "rest(i, s_.gamma[i] > s_.lo[i] ?"),
     "dense Newton: upper bounds never passed": (DENSE_NEWTON, "if (s_.gamma[i] >= s_.lo[i] && s_.gamma[i] <= s_.hi[i]) continue;", "if (s_.gamma[i] >= s_.lo[i]) continue;"),
     "dense Newton: lower bounds never left": (DENSE_NEWTON, "s_.state[i] == ActiveSet::at_lower ? w < -zero", "s_.state[i] == ActiveSet::at_lower ? false"),

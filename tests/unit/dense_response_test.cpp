@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include "factorize/dot.h"
 #include "support/dense.h"
 #include "support/random_problem.h"
 
@@ -68,10 +69,11 @@ TEST(DenseResponse, CorrectionSolvesTheSaddlePointSystem) {
         }
       for (int t = 0; t < active; ++t)
         for (int u = 0; u < active; ++u) K(s.n + t, s.n + u) = d.S(s.row[s.member[t]], s.row[s.member[u]]);
-      for (int a = 0; a < s.n + active; ++a) b[a] = s.x[a] = random.uniform();
+      const auto x = [&](int a) -> double& { return a < s.n ? s.x[a] : s.x_rows()[a - s.n]; };
+      for (int a = 0; a < s.n + active; ++a) b[a] = x(a) = random.uniform();
       mlcp::DenseResponse::correct(s);
       const Vector expected = K.fullPivLu().solve(b);
-      for (int a = 0; a < s.n + active; ++a) ASSERT_NEAR(s.x[a], static_cast<double>(expected[a]), 1e-9 * (1 + expected.norm())) << "seed " << seed;
+      for (int a = 0; a < s.n + active; ++a) ASSERT_NEAR(x(a), static_cast<double>(expected[a]), 1e-9 * (1 + expected.norm())) << "seed " << seed;
     }
   }
 }

@@ -1,0 +1,143 @@
+// The dense factor by blocks and the kernels that work on its panels, against the products written down, with the same bits from either kernel.
+#include "factorize/block_ldl.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "factorize/kernels.h"
+#include "support/random.h"
+
+namespace support {
+namespace {
+
+constexpr double positive[4] = {};
+
+/// A symmetric positive definite matrix of 4 · blocks rows, zero beyond a random envelope, and its factor.
+struct Case {
+  int blocks, size;
+  Eigen::MatrixXd A;
+  std::vector<double> lower, inverse;
+  std::vector<std::int32_t> first;
+
+  Case(Random& random, int count) : blocks(count), size(4 * count), A(Eigen::MatrixXd::Identity(size, size) * size), lower(mlcp::BlockLdl::reals(count)), inverse(size) {
+    for (int b = 0; b < blocks; ++b) {
+      first.push_back(random.integer(0, b));
+      for (int p = 4 * b; p < 4 * b + 4; ++p)
+        for (int q = 4 * first[b]; q < p; ++q) A(p, q) = A(q, p) = random.uniform();
+    }
+  }
+  mlcp::BlockLdl factor() { return {lower.data(), inverse.data(), first.data()}; }
+
+  /// How many rows of block b have pivots above least.
+  std::int32_t eliminate(const mlcp::Kernels& kernels, int b, const double* least = positive) {
+    double* const block = factor().block(b);
+    for (int q = 4 * first[b]; q < 4 * b + 4; ++q)
+      for (int r = 0; r < 4; ++r) block[4 * q + r] = q <= 4 * b + r ? A(4 * b + r, q) : 0;
+    return kernels.block_eliminate(factor(), b, least);
+  }
+  void eliminate(const mlcp::Kernels& kernels) {
+    for (int b = 0; b < blocks; ++b) ASSERT_EQ(eliminate(kernels, b), 4);
+  }
+  Eigen::MatrixXd L() {
+    Eigen::MatrixXd l = Eigen::MatrixXd::Identity(size, size);
+    for (int b = 0; b < blocks; ++b)
+      for (int q = 4 * first[b]; q < 4 * b + 4; ++q)
+        for (int r = 0; r < 4; ++r) l(4 * b + r, q) += factor().block(b)[4 * q + r];
+    return l;
+  }
+};
+
+class BlockLdl : public testing::Test {
+ protected:
+  template <class Check>
+  void each(Check check) {
+    for (int seed = 0; seed < 200; ++seed) {
+      SCOPED_TRACE(seed);
+      Random random(seed);
+      Case c(random, random.integer(1, 7));
+      c.eliminate(mlcp::portable_kernels);
+      check(c, random);
+      if (HasFatalFailure()) return;
+    }
+  }
+};
+
+TEST_F(BlockLdl, IsTheFactorOfItsMatrix) {
+  each([](Case& c, Random&) {
+    const Eigen::MatrixXd l = c.L(), product = l * Eigen::Map<Eigen::VectorXd>(c.inverse.data(), c.size).cwiseInverse().asDiagonal() * l.transpose();
+    ASSERT_LT((product - c.A).cwiseAbs().maxCoeff(), 1e-12);
+    ASSERT_EQ(Eigen::MatrixXd(l.triangularView<Eigen::StrictlyUpper>()).cwiseAbs().maxCoeff(), 0);
+  });
+}
+
+TEST_F(BlockLdl, SolvesWithItsTriangles) {
+  each([](Case& c, Random& random) {
+    Eigen::VectorXd x(c.size);
+    for (double& entry : x) entry = random.uniform();
+    Eigen::VectorXd forward = x, backward = x;
+    c.factor().forward(c.blocks, forward.data());
+    c.factor().backward(c.blocks, backward.data());
+    ASSERT_LT((c.L() * forward - x).cwiseAbs().maxCoeff(), 1e-13);
+    ASSERT_LT((c.L().transpose() * backward - x).cwiseAbs().maxCoeff(), 1e-13);
+  });
+}
+
+TEST_F(BlockLdl, PanelsAreSolvedAndMultipliedWithTheSameBitsOnEveryCpu) {
+  each([](Case& c, Random& random) {
+    const int begin = random.integer(0, c.blocks - 1);
+    Eigen::Matrix<double, -1, 4, Eigen::RowMajor> y = Eigen::MatrixXd::Zero(c.size, 4);
+    for (int p = 4 * begin; p < c.size; ++p)
+      for (int r = 0; r < 4; ++r) y(p, r) = random.chance(0.3) ? random.uniform() : 0;
+    Case other = c;
+    const mlcp::Kernels& kernels = mlcp::kernels_for_this_cpu();
+    other.eliminate(kernels);
+    ASSERT_EQ(c.lower, other.lower);
+    ASSERT_EQ(c.inverse, other.inverse);
+
+    Eigen::Matrix<double, -1, 4, Eigen::RowMajor> solved = y, again = y, scaled = y, scaled_again = y;
+    const int end = mlcp::portable_kernels.panel_forward(c.factor(), begin, c.blocks, solved.data());
+    ASSERT_EQ(kernels.panel_forward(c.factor(), begin, c.blocks, again.data()), end);
+    ASSERT_EQ(solved, again);
+    ASSERT_LT((c.L() * solved - y).cwiseAbs().maxCoeff(), 1e-13);
+    ASSERT_EQ(solved.bottomRows(c.size - 4 * end).cwiseAbs().sum(), 0);
+    ASSERT_TRUE(end == begin || solved.middleRows(4 * end - 4, 4).cwiseAbs().sum() > 0);
+
+    Eigen::VectorXd k(c.size);
+    for (double& entry : k) entry = random.uniform();
+    double sum[4], sum_again[4], tile[16], tile_again[16];
+    mlcp::portable_kernels.panel_scale(c.size, solved.data(), c.inverse.data(), k.data(), scaled.data(), sum);
+    kernels.panel_scale(c.size, solved.data(), c.inverse.data(), k.data(), scaled_again.data(), sum_again);
+    mlcp::portable_kernels.panel_product(c.size, scaled.data(), solved.data(), tile);
+    kernels.panel_product(c.size, scaled.data(), solved.data(), tile_again);
+    const Eigen::VectorXd inverse = Eigen::Map<Eigen::VectorXd>(c.inverse.data(), c.size);
+    ASSERT_EQ(scaled, inverse.asDiagonal() * solved);
+    for (int r = 0; r < 4; ++r) {
+      ASSERT_EQ(sum[r], sum_again[r]);
+      ASSERT_NEAR(sum[r], scaled.col(r).dot(k), 1e-13);
+      for (int lane = 0; lane < 4; ++lane) {
+        ASSERT_EQ(tile[4 * r + lane], tile_again[4 * r + lane]);
+        ASSERT_NEAR(tile[4 * r + lane], scaled.col(r).dot(solved.col(lane)), 1e-13);
+      }
+    }
+  });
+}
+
+TEST_F(BlockLdl, SaysWhichRowHasNoPivot) {
+  for (int seed = 0; seed < 100; ++seed) {
+    Random random(seed);
+    Case c(random, 3);
+    const int row = random.integer(0, 3);
+    c.A(8 + row, 8 + row) = -1;
+    for (const mlcp::Kernels* kernels : {&mlcp::portable_kernels, &mlcp::kernels_for_this_cpu()}) {
+      for (int b = 0; b < 2; ++b) ASSERT_EQ(c.eliminate(*kernels, b), 4);
+      ASSERT_EQ(c.eliminate(*kernels, 2), row);
+    }
+    const double least[4] = {1e3, 0, 0, 0};
+    EXPECT_EQ(c.eliminate(mlcp::portable_kernels, 1, least), 0);
+  }
+}
+
+}  // namespace
+}  // namespace support
