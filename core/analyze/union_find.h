@@ -18,6 +18,7 @@ inline std::int32_t root_of(Array<std::int32_t>& parent, std::int32_t i) {
 }
 
 inline void join(Array<std::int32_t>& parent, std::int32_t i, std::int32_t j) {
+  if (parent[i] == parent[j]) return;
   const std::int32_t a = root_of(parent, i), b = root_of(parent, j);
   parent[std::max(a, b)] = std::min(a, b);
 }

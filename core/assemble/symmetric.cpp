@@ -10,14 +10,19 @@ namespace {
 
 constexpr std::int32_t none = -1;
 
-/// Indices in range, none twice in a column, only in the triangle that was announced. Returns the number of entries.
-std::int32_t check_input(const SymmetricInput& a, Marker& marker) {
+/// The arrays are there and as long as they have to be, their values finite. Returns the number of entries.
+std::int32_t check_arrays(const SymmetricInput& a) {
   if (a.triangle < MLCP_FULL || a.triangle > MLCP_UPPER)
     throw Error(MLCP_ERROR_ARGUMENT, "triangle = %d is unknown", a.triangle);
   const std::int32_t entries = check_pointers("column_pointers", a.column_pointers, a.size);
   check_array("row_indices", a.row_indices, entries);
   check_array("values", a.values, entries);
   check_entries("the matrix", 2 * std::int64_t(entries) + a.size);
+  return entries;
+}
+
+/// Indices in range, none twice in a column, only in the triangle that was announced.
+void check_indices(const SymmetricInput& a, Marker& marker) {
   for (std::int32_t j = 0; j < a.size; ++j) {
     marker.start(a.size);
     for (std::int32_t e = a.column_pointers[j]; e < a.column_pointers[j + 1]; ++e) {
@@ -29,8 +34,40 @@ std::int32_t check_input(const SymmetricInput& a, Marker& marker) {
       if (!marker.insert(i)) throw Error(MLCP_ERROR_ARGUMENT, "row_indices[%d] = %d is twice in column %d", e, i, j);
     }
   }
-  check_finite("values", a.values, entries);
-  return entries;
+}
+
+/// What most callers hand in: both triangles, every column ascending. Then the mirrors of column j are met in the order in which the other columns
+/// have them, and pattern and slots are those of the input.  false: it is not so, or something is wrong with it.
+/// after true: as place().       cost: 1 step an entry
+bool take_sorted(const SymmetricInput& a, std::int32_t entries, EditWorkspace& work) {
+  if (a.triangle != MLCP_FULL) return false;
+  const std::int32_t *start = a.column_pointers, *rows = a.row_indices;
+  std::int32_t* slot = work.slot.data();
+  work.index.resize(a.size);
+  std::int32_t* const next = work.index.data();  // of each column: its first entry whose mirror was not met
+  std::copy(start, start + a.size, next);
+  for (std::int32_t j = 0; j < a.size; ++j) {
+    std::int32_t before = j - 1;
+    for (std::int32_t e = next[j], end = start[j + 1]; e < end; ++e) {
+      const std::int32_t i = rows[e];
+      if (i <= before || i >= a.size) return false;
+      before = i;
+      slot[2 * e] = e;
+      if (i == j) {
+        slot[2 * e + 1] = e;
+        continue;
+      }
+      const std::int32_t mirror = next[i]++;
+      if (mirror >= start[i + 1] || rows[mirror] != j) return false;
+      slot[2 * e + 1] = mirror;
+      slot[2 * mirror] = mirror;
+      slot[2 * mirror + 1] = e;
+    }
+  }
+  work.expanded.pointers.assign({start, std::size_t(a.size) + 1});
+  work.expanded.indices.assign({rows, std::size_t(entries)});
+  work.expanded.values.resize(entries);
+  return true;
 }
 
 /// slot[2e + 1]: the caller's entry (j, i) for his entry e at (i, j); none where there is none.
@@ -98,16 +135,20 @@ void place(const SymmetricInput& a, EditWorkspace& work) {
 }  // namespace
 
 void expand(const SymmetricInput& input, EditWorkspace& work) {
-  const std::int32_t entries = check_input(input, work.marker);
+  const std::int32_t entries = check_arrays(input);
   work.slot.resize(2 * std::size_t(entries));
-  if (input.triangle == MLCP_FULL) {
-    find_mirrors(input, entries, work.marker, work.index, work.slot.data());
-  } else {
-    for (std::int32_t j = 0; j < input.size; ++j)
-      for (std::int32_t e = input.column_pointers[j]; e < input.column_pointers[j + 1]; ++e)
-        work.slot[2 * e + 1] = input.row_indices[e] == j ? e : none;
+  if (!take_sorted(input, entries, work)) {
+    check_indices(input, work.marker);
+    if (input.triangle == MLCP_FULL) {
+      find_mirrors(input, entries, work.marker, work.index, work.slot.data());
+    } else {
+      for (std::int32_t j = 0; j < input.size; ++j)
+        for (std::int32_t e = input.column_pointers[j]; e < input.column_pointers[j + 1]; ++e)
+          work.slot[2 * e + 1] = input.row_indices[e] == j ? e : none;
+    }
+    place(input, work);
   }
-  place(input, work);
+  check_finite("values", input.values, entries);
   work.value.resize(input.size);
   const SymmetricPattern pattern{input.size, work.expanded.indices.data(), 0, work.slot.data(), entries, input.triangle};
   expand_values("values", pattern, input.values, work.value.data(), work.expanded.values.span());
@@ -116,7 +157,7 @@ void expand(const SymmetricInput& input, EditWorkspace& work) {
 void expand_values(const char* name, const SymmetricPattern& a, const double* values, double* diagonal,
                    std::span<double> out) {
   constexpr double missing = std::numeric_limits<double>::quiet_NaN();  // the caller's own values are finite
-  std::fill(out.begin(), out.end(), missing);
+  if (static_cast<std::int64_t>(out.size()) > a.count) std::fill(out.begin(), out.end(), missing);
   std::fill(diagonal, diagonal + a.size, 0.0);
   for (std::int64_t e = 0; e < a.count; ++e) {
     const std::int32_t p = a.slot[2 * e], q = a.slot[2 * e + 1];
@@ -126,7 +167,9 @@ void expand_values(const char* name, const SymmetricPattern& a, const double* va
   }
   if (a.triangle != MLCP_FULL) return;
   for (std::int64_t e = 0; e < a.count; ++e) {
-    const std::int32_t p = a.slot[2 * e], q = a.slot[2 * e + 1], i = a.indices[p] - a.base, j = a.indices[q] - a.base;
+    const std::int32_t p = a.slot[2 * e], q = a.slot[2 * e + 1];
+    if (out[p] == out[q]) continue;
+    const std::int32_t i = a.indices[p] - a.base, j = a.indices[q] - a.base;
     const bool alone = std::isnan(out[q]);
     if (alone) out[q] = 0;
     if ((alone && out[p] != 0) || !nearly_symmetric(out[p], out[q], diagonal[i], diagonal[j]))

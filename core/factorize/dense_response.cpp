@@ -32,14 +32,14 @@ void DenseResponse::prepare(const Problem& problem, const Components& components
   integers_.resize(integers);
   states_.resize(components.rows.size());
   members_.resize(count);
-  slots_.clear();
-  slots_.reserve((problem.mass.values.size() + n) / 2);
+  slots_.resize(problem.mass.values.size());  // more than there will be
+  Slot* next = slots_.data();
   for (std::int32_t c = 0; c < count; ++c) {
     DenseIsland s = island(c);
-    places_[c].slots = static_cast<std::int64_t>(slots_.size());
-    find_envelopes(problem, s);
+    places_[c].slots = next - slots_.data();
+    next = find_envelopes(problem, s, next);
   }
-  places_[count].slots = static_cast<std::int64_t>(slots_.size());
+  places_[count].slots = next - slots_.data();
 }
 
 DenseIsland DenseResponse::island(std::int32_t c) {
@@ -75,17 +75,19 @@ DenseIsland DenseResponse::island(std::int32_t c) {
   return s;
 }
 
-void DenseResponse::find_envelopes(const Problem& problem, DenseIsland& s) {
+DenseResponse::Slot* DenseResponse::find_envelopes(const Problem& problem, DenseIsland& s, Slot* slot) {
   const SparseView mass = problem.mass_view(), jacobian = problem.jacobian_view();
   for (std::int32_t b = 0; b < s.blocks; ++b) {
     std::int32_t first = 4 * b;
-    for (std::int32_t p = 4 * b; p < std::min(4 * b + 4, s.n); ++p)
-      for (std::int32_t j = s.velocity(p), t = mass.pointers[j]; t < mass.pointers[j + 1]; ++t) {
+    for (std::int32_t p = first; p < std::min(4 * b + 4, s.n); ++p) {
+      const std::int32_t j = s.velocity(p), row = static_cast<std::int32_t>(BlockLdl::reals(b)) + p - 4 * b;
+      for (std::int32_t t = mass.pointers[j], end = mass.pointers[j + 1]; t < end; ++t) {
         const std::int32_t q = local_[mass.indices[t]];
         if (q > p) continue;
         first = std::min(first, q);
-        slots_.push_back({t, static_cast<std::int32_t>(s.mass.block(b) - s.mass.lower) + 4 * q + p - 4 * b});
+        *slot++ = {t, row + 4 * q};
       }
+    }
     s.mass.first[b] = first / 4;
   }
   for (std::int32_t c = 0; c < s.panels; ++c) {
@@ -95,6 +97,7 @@ void DenseResponse::find_envelopes(const Problem& problem, DenseIsland& s) {
         if (const std::int32_t p = local_[jacobian.indices[t]]; p >= 0) begin = std::min(begin, p);
     s.begin[c] = begin / 4;
   }
+  return slot;
 }
 
 bool DenseResponse::compute(const Problem& problem, std::int32_t component) {

@@ -76,7 +76,8 @@ class DenseResponse {
   struct Slot {
     std::int32_t from, to;
   };
-  void find_envelopes(const Problem& problem, DenseIsland& island);
+  /// And lists the entries of M from `slot` on.  returns behind the last one.
+  Slot* find_envelopes(const Problem& problem, DenseIsland& island, Slot* slot);
   bool load_mass(const Problem& problem, DenseIsland& island, std::span<const Slot> slots);
   void load_row(const Problem& problem, DenseIsland& island, std::int32_t i);
   void respond(DenseIsland& island, std::int32_t panel);

@@ -30,17 +30,19 @@ Assembly::Assembly(const mlcp_problem* problem) {
     check(mlcp_problem_body_range(problem, id, &offset, &body.dimension));
     check(mlcp_problem_body_state(problem, id, &prescribed, 0, nullptr));
     if (prescribed) throw std::runtime_error("prescribed bodies are not benchmarked");
+    std::vector<std::pair<std::int32_t, double>> column;
     for (std::int32_t j = offset; j < offset + body.dimension; ++j) {
-      for (std::int32_t e = mass.pointers[j]; e < mass.pointers[j + 1]; ++e) body.indices.push_back(mass.indices[e] - offset);
+      column.clear();
+      for (std::int32_t e = mass.pointers[j]; e < mass.pointers[j + 1]; ++e) column.emplace_back(mass.indices[e] - offset, mass.values[e]);
+      std::sort(column.begin(), column.end());
+      for (const auto& [i, value] : column) {
+        body.indices.push_back(i);
+        mass_.push_back(value);
+      }
       body.pointers.push_back(length(body.indices));
     }
-    const double* values = mass.values + mass.pointers[offset];
     body.dense = body.indices.size() == static_cast<std::size_t>(body.dimension) * static_cast<std::size_t>(body.dimension);
-    mass_.insert(mass_.end(), values, values + body.indices.size());
     if (body.dense) {
-      for (std::int32_t j = 0; j < body.dimension; ++j)
-        for (std::int32_t e = body.pointers[static_cast<std::size_t>(j)]; e < body.pointers[static_cast<std::size_t>(j) + 1]; ++e)
-          mass_[body.first + static_cast<std::size_t>(j * body.dimension + body.indices[static_cast<std::size_t>(e)])] = values[e];
       body.pointers.clear();
       body.indices.clear();
     }
