@@ -6,6 +6,8 @@ namespace mlcp {
 namespace {
 
 constexpr std::int32_t leaf_size = 12;
+/// Smaller pieces are not worth a search for a separator: minimum degree finds as little fill.
+constexpr std::int32_t bulky_size = 4000;
 /// A separator is thin when it has at most 2 + 1/16 of the piece's variables.
 bool thin(std::int32_t separator, std::int32_t piece) { return separator <= 2 + piece / 16; }
 
@@ -89,6 +91,13 @@ bool Dissection::split(const QuotientGraph& g, Piece piece) {
   for (std::int32_t s = piece.first; s < piece.last; ++s)
     if (sequence_[s] < velocities) return false;
   search(g, far, label);
+  return split_at_level(g, piece, label) || (Separator::available() && size >= bulky_size && split_bulky(g, piece));
+}
+
+/// before: search() has visited the whole piece.
+bool Dissection::split_at_level(const QuotientGraph& g, Piece piece, std::int32_t label) {
+  const std::int32_t size = piece.last - piece.first;
+  Array<std::int32_t>& front = front_;
   const auto levels = static_cast<std::int32_t>(level_start_.size()) - 1;
   std::int32_t middle = -1;
   for (std::int32_t l = 1; l + 1 < levels; ++l) {
@@ -111,6 +120,25 @@ bool Dissection::split(const QuotientGraph& g, Piece piece) {
   std::copy(front.begin(), front.end(), sequence_.begin() + piece.first);
   if (near) stack_.push_back({piece.first, piece.first + near, t});
   if (until < size) stack_.push_back({piece.first + until, piece.last, t});
+  return true;
+}
+
+bool Dissection::split_bulky(const QuotientGraph& g, Piece piece) {
+  if (!separator_.find(g, sequence_.span().subspan(piece.first, piece.last - piece.first))) return false;
+  const auto t = static_cast<std::int32_t>(parent.size());
+  parent.push_back(piece.parent);
+  front_.clear();
+  std::int32_t ends[2];
+  for (const std::int32_t side : {0, 1}) {
+    for (std::int32_t s = piece.first; s < piece.last; ++s)
+      if (separator_.part[s - piece.first] == side) front_.push_back(sequence_[s]);
+    ends[side] = piece.first + static_cast<std::int32_t>(front_.size());
+  }
+  for (std::int32_t s = piece.first; s < piece.last; ++s)
+    if (separator_.part[s - piece.first] == 2) home[sequence_[s]] = t;
+  std::copy(front_.begin(), front_.end(), sequence_.begin() + piece.first);
+  for (const Piece half : {Piece{piece.first, ends[0], t}, Piece{ends[0], ends[1], t}})
+    if (half.first < half.last) stack_.push_back(half);
   return true;
 }
 

@@ -1,12 +1,13 @@
 #pragma once
 #include "analyze/quotient_graph.h"
+#include "analyze/separator.h"
 #include "threads/poll.h"
 
 namespace mlcp {
 
 /// Nested dissection of slender graphs (chains, ropes, trees of links), so that elimination paths are of logarithmic length,
-/// where a minimum degree order may walk along the whole chain. Bulky pieces are left to minimum degree: a piece is cut only
-/// when the middle level of a breadth-first search is thin. After George (1973).
+/// where a minimum degree order may walk along the whole chain: a piece is cut when the middle level of a breadth-first search is thin. After
+/// George (1973). Large bulky pieces are cut where a Separator is to be had; the rest is left to minimum degree.
 /// cost: O(entries · log variables) where it cuts, two searches of each piece where it does not.
 struct Dissection {
   Array<std::int32_t> home;     ///< variable → node of the separator tree
@@ -14,7 +15,7 @@ struct Dissection {
   Array<std::int32_t> below;    ///< tree node → number of variables in the subtrees under it; they all come first
 
   explicit Dissection(const Memory& m)
-      : home(m), parent(m), below(m), piece_(m), sequence_(m), front_(m), level_(m), visited_(m), stack_(m), level_start_(m) {}
+      : home(m), parent(m), below(m), piece_(m), sequence_(m), front_(m), level_(m), visited_(m), stack_(m), level_start_(m), separator_(m) {}
   /// throws: Stopped
   void cut(const QuotientGraph& graph, Poll poll = {});
 
@@ -25,6 +26,8 @@ struct Dissection {
   std::int32_t search(const QuotientGraph& graph, std::int32_t root, std::int32_t label);
   bool touches_next_level(const QuotientGraph& graph, std::int32_t x, std::int32_t label) const;
   bool split(const QuotientGraph& graph, Piece piece);
+  bool split_at_level(const QuotientGraph& graph, Piece piece, std::int32_t label);
+  bool split_bulky(const QuotientGraph& graph, Piece piece);
   void leaf(Piece piece);
 
   Array<std::int32_t> piece_;     // variable → label of the piece it is in
@@ -33,6 +36,7 @@ struct Dissection {
   Array<std::int32_t> level_, visited_;
   Array<Piece> stack_;
   Array<std::int32_t> level_start_;
+  Separator separator_;
   std::int32_t label_ = 0, search_ = 0, reached_ = 0;
 };
 
