@@ -47,7 +47,7 @@ bool DenseStage::solve(const SolveInput& input, const Mask* start, Watch& watch,
     counts += counts_[c];
   }
   for (int round = 0;; ++round) {
-    errors = measure.run(problem, input.enabled, result.v.span(), result.gamma.span());
+    errors = measure.run(problem, input.enabled, result.v.span(), result.gamma.span(), input.contact_of_row);
     if (errors.largest() <= refined) break;
     if (round == most_refinements) return false;
     for (std::int32_t c = 0; c < count; ++c) counts.refinements += refine(c, measure, round > 0, result);

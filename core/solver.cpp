@@ -50,6 +50,7 @@ struct Solver::State {
   Errors errors;
   std::int32_t indefinite = -1;  ///< the velocity whose pivot is not positive
   double contradiction = 0;
+  std::span<const std::int32_t> contact_of_row;
   bool large = false;            ///< `main` has solved the last problem, and its factors stand
 
   State(const Settings& s, const Memory& m)
@@ -98,7 +99,10 @@ void Solver::set_settings(const Settings& settings) {
   state_->settings = settings;
 }
 
-void Solver::allow_contradiction(double error) { state_->contradiction = error; }
+void Solver::measure_contacts(double contradiction, std::span<const std::int32_t> contact_of_row) {
+  state_->contradiction = contradiction;
+  state_->contact_of_row = contact_of_row;
+}
 
 const Analysis& Solver::analysis() const { return state_->main.analysis; }
 std::span<const std::int32_t> Solver::ordering() const { return state_->main.analysis.ordering.order.span(); }
@@ -186,7 +190,7 @@ void Solver::State::rescue(const SolveInput& input, Watch& watch, Crew& crew, ml
   if (!any) return;
   Settings pivoting = settings;
   pivoting.method = MLCP_METHOD_SIMPLEX;
-  const SolveInput part{problem, &given_up, pivoting, input.contradiction};
+  const SolveInput part{problem, &given_up, pivoting, input.contradiction, input.contact_of_row};
   try {
     if (!exact.analysis.covers(problem, &given_up, true)) exact.analysis.run(problem, &given_up, true, {}, watch.poll());
   } catch (const Stopped&) {
@@ -246,7 +250,7 @@ void Solver::State::extend(const SolveInput& input, Watch& watch, mlcp_report& r
 }
 
 void Solver::State::look_at_result(const SolveInput& input) {
-  errors = measure.run(input.problem, input.enabled, result.v.span(), result.gamma.span());
+  errors = measure.run(input.problem, input.enabled, result.v.span(), result.gamma.span(), input.contact_of_row);
   result.w.assign(measure.w.span());
 }
 
@@ -424,11 +428,11 @@ void Solver::solve(const Problem& problem, const Mask* enabled, const Mask* star
   check_mask(enabled, problem, "enabled");
   check_mask(start, problem, "start");
   s.pool.resize(s.settings.parallel_for ? 1 : s.settings.num_threads > 0 ? s.settings.num_threads : static_cast<std::int32_t>(std::max(1u, std::thread::hardware_concurrency())));
-  s.solve({problem, enabled, s.settings, s.contradiction}, start, false, report);
+  s.solve({problem, enabled, s.settings, s.contradiction, s.contact_of_row}, start, false, report);
 }
 
 void Solver::solve_again(const Problem& problem, const Mask* enabled, const Mask& start, mlcp_report& report) {
-  state_->solve({problem, enabled, state_->settings, state_->contradiction}, &start, true, report);
+  state_->solve({problem, enabled, state_->settings, state_->contradiction, state_->contact_of_row}, &start, true, report);
 }
 
 /// The order is kept, so that the next solve gives the same bits as without.

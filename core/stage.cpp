@@ -5,6 +5,7 @@ namespace mlcp {
 void Stage::load(const SolveInput& input, const Mask* start) {
   basis.prepare(input.problem, analysis, input.settings);
   basis.contradiction = input.contradiction;
+  basis.values.measure_together(analysis.pattern, analysis.symbolic.islands.span(), input.contact_of_row);
   basis.set.start(input.problem, analysis.pattern, basis.values, input.enabled, start);
 }
 

@@ -91,4 +91,17 @@ void KktValues::regularise(const KktPattern& pattern, const Island& island, doub
     if (!pattern.is_row(p)) factored[p] = diagonal[p] + delta * (largest > 0 ? largest : 1);
 }
 
+void KktValues::measure_together(const KktPattern& pattern, std::span<const Island> islands, std::span<const std::int32_t> contact_of_row) {
+  together.clear();
+  if (contact_of_row.empty()) return;
+  together.resize(pattern.rows());
+  first_.assign(contact_of_row.size(), -1);
+  for (const Island& island : islands)
+    for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
+      const std::int32_t contact = contact_of_row[pattern.node[pattern.row_position[o]] - pattern.n];
+      if (contact >= 0 && first_[contact] < island.first_row) first_[contact] = o;
+      together[o] = contact >= 0 ? first_[contact] : o;
+    }
+}
+
 }  // namespace mlcp

@@ -1,4 +1,6 @@
 #pragma once
+#include <span>
+
 #include "analyze/symbolic.h"
 #include "assemble/problem.h"
 
@@ -17,8 +19,9 @@ struct KktValues {
   Array<double> a;         ///< ordinals: aᵢ = Σⱼ Jᵢⱼ²/Mⱼⱼ + Σᵢᵢ over dynamic velocities
   Array<double> root_a;    ///< ordinals: √aᵢ, 1 where aᵢ = 0
   Array<double> lo, hi;    ///< ordinals
+  Array<std::int32_t> together;  ///< ordinal → the first of the rows of its island that are measured with it; empty: each row for itself
 
-  explicit KktValues(const Memory& m) : lower(m), diagonal(m), factored(m), row(m), b(m), size(m), a(m), root_a(m), lo(m), hi(m) {}
+  explicit KktValues(const Memory& m) : lower(m), diagonal(m), factored(m), row(m), b(m), size(m), a(m), root_a(m), lo(m), hi(m), together(m), first_(m) {}
 
   /// cost: O(entries of M, J and Σ).
   void load(const Problem& problem, const KktPattern& pattern);
@@ -26,6 +29,19 @@ struct KktValues {
   void soften(const Problem& problem, const KktPattern& pattern, std::int32_t first, std::int32_t last, double amount);
   /// What the factor takes in on an island from now on: −(Σᵢᵢ + ε aᵢ) on rows, Mⱼⱼ + δ max M on velocities. K itself stays.
   void regularise(const KktPattern& pattern, const Island& island, double epsilon, double delta);
+  /// contact_of_row: see SolveInput.
+  void measure_together(const KktPattern& pattern, std::span<const Island> islands, std::span<const std::int32_t> contact_of_row);
+  /// scale(ordinal) := the largest of the rows measured together.
+  template <class Scale>
+  void largest_together(const Island& island, Scale scale) const {
+    if (together.empty()) return;
+    for (std::int32_t o = island.first_row; o < island.last_row; ++o)
+      if (scale(o) > scale(together[o])) scale(together[o]) = scale(o);
+    for (std::int32_t o = island.first_row; o < island.last_row; ++o) scale(o) = scale(together[o]);
+  }
+
+ private:
+  Array<std::int32_t> first_;  // contact → its first row in the island
 };
 
 }  // namespace mlcp

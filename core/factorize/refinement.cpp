@@ -23,7 +23,7 @@ void Refinement::prepare(std::int32_t size) {
   best_.resize(size);
 }
 
-/// after: residual_ = b − K x, scale_ = |K||x| + size on the island.
+/// after: residual_ = b − K x, scale_ = |K||x| + size on the island, of contacts their largest.
 Refinement::Error Refinement::measure(const Island& island, const KktPattern& pattern, const KktValues& values, const Factor& factor,
                                       const double* b, const double* size, const double* x, std::int64_t& work) {
   for (std::int32_t p = island.first; p < island.last; ++p) {
@@ -41,6 +41,7 @@ Refinement::Error Refinement::measure(const Island& island, const KktPattern& pa
     }
   }
   work += 2 * (pattern.lower_pointers[island.last] - pattern.lower_pointers[island.first]);
+  values.largest_together(island, [&](std::int32_t o) -> double& { return scale_[pattern.row_position[o]]; });
   Error worst;
   for (std::int32_t p = island.first; p < island.last; ++p) {
     if (!factor.in(p)) continue;

@@ -68,8 +68,17 @@ double Measure::velocity_error(std::int32_t j) const {
   return absolute == 0 ? 0 : size == 0 ? absolute : size < infinity && absolute < infinity ? absolute / size : infinity;
 }
 
+void Measure::scale_by_contact(std::span<const std::int32_t> contact_of_row) {
+  if (contact_of_row.empty()) return;
+  largest_.assign(contact_of_row.size(), 0.0);
+  for (std::size_t i = 0; i < scale.size(); ++i)
+    if (const std::int32_t c = contact_of_row[i]; c >= 0) largest_[c] = std::max(largest_[c], scale[i]);
+  for (std::size_t i = 0; i < scale.size(); ++i)
+    if (const std::int32_t c = contact_of_row[i]; c >= 0) scale[i] = largest_[c];
+}
+
 void Measure::rows(const Problem& problem, const Mask* enabled, std::span<const double> v, std::span<const double> gamma,
-                   Errors& e) {
+                   std::span<const std::int32_t> contact_of_row, Errors& e) {
   const std::int32_t n = problem.n(), m = problem.m();
   const SparseView jacobian = problem.jacobian_view(), sigma = problem.compliance_view();
   reach_.assign(n, -1.0);  // |v| + |v₀| where a row has asked for it
@@ -106,6 +115,7 @@ void Measure::rows(const Problem& problem, const Mask* enabled, std::span<const 
     a[i] = square;
     largest_a = std::max(largest_a, square);
   }
+  scale_by_contact(contact_of_row);
   for (std::int32_t i = 0; i < m; ++i) {
     if (enabled && enabled->state[i] == MLCP_ROW_DISABLED) continue;
     if (!(a[i] > 0)) a[i] = largest_a > 0 ? largest_a : 1;
@@ -127,10 +137,11 @@ void Measure::take_maxima(const Mask* enabled, Errors& e) const {
   }
 }
 
-Errors Measure::run(const Problem& problem, const Mask* enabled, std::span<const double> v, std::span<const double> gamma) {
+Errors Measure::run(const Problem& problem, const Mask* enabled, std::span<const double> v, std::span<const double> gamma,
+                    std::span<const std::int32_t> contact_of_row) {
   Errors e;
   momentum(problem, v, gamma, e);
-  rows(problem, enabled, v, gamma, e);
+  rows(problem, enabled, v, gamma, contact_of_row, e);
   return e;
 }
 

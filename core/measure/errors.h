@@ -23,10 +23,11 @@ struct Errors {
 /// Workspace and per-row numbers of one measurement.
 class Measure {
  public:
-  explicit Measure(const Memory& m) : w(m), scale(m), a(m), residual(m), error(m), sum_(m), size_(m), diagonal_(m), reach_(m) {}
+  explicit Measure(const Memory& m) : w(m), scale(m), a(m), residual(m), error(m), sum_(m), size_(m), diagonal_(m), reach_(m), largest_(m) {}
 
+  /// contact_of_row: see SolveInput.
   /// after: w, scale, a, error (rows) and velocity_error() are what the maxima were taken over; rows left out by enabled are 0.
-  Errors run(const Problem& problem, const Mask* enabled, std::span<const double> v, std::span<const double> gamma);
+  Errors run(const Problem& problem, const Mask* enabled, std::span<const double> v, std::span<const double> gamma, std::span<const std::int32_t> contact_of_row = {});
 
   /// The maxima over rows, of residual and error as they are now.
   void take_maxima(const Mask* enabled, Errors& e) const;
@@ -44,11 +45,14 @@ class Measure {
  private:
   /// after: diagonal_ is Mⱼⱼ, for rows(), where it becomes 0 on prescribed bodies.
   void momentum(const Problem& problem, std::span<const double> v, std::span<const double> gamma, Errors& e);
-  void rows(const Problem& problem, const Mask* enabled, std::span<const double> v, std::span<const double> gamma, Errors& e);
+  void rows(const Problem& problem, const Mask* enabled, std::span<const double> v, std::span<const double> gamma,
+            std::span<const std::int32_t> contact_of_row, Errors& e);
+  void scale_by_contact(std::span<const std::int32_t> contact_of_row);
   Array<double> sum_;
   Array<double> size_;
   Array<double> diagonal_;
   Array<double> reach_;
+  Array<double> largest_;  // by contact
 };
 
 /// median(w, a(γ − lo), a(γ − hi)): 0 exactly where w > 0 ⇒ γ = lo, w < 0 ⇒ γ = hi, lo ≤ γ ≤ hi holds.

@@ -74,8 +74,11 @@ void slack_tolerances(const Island& island, const KktPattern& pattern, const Kkt
     double scale = std::abs(values.diagonal[p] * set.x[p]) + values.size[p];
     for (std::int32_t t = pattern.row_pointers[o]; t < pattern.row_pointers[o + 1]; ++t)
       scale += std::abs(values.row[t] * set.x[pattern.row_columns[t]]);
-    set.tolerance[o] = set.deferred[o] || values.lo[o] == values.hi[o] ? infinity : relative * scale;
+    set.tolerance[o] = relative * scale;
   }
+  values.largest_together(island, [&](std::int32_t o) -> double& { return set.tolerance[o]; });
+  for (std::int32_t o = island.first_row; o < island.last_row; ++o)
+    if (set.deferred[o] || values.lo[o] == values.hi[o]) set.tolerance[o] = infinity;
 }
 
 }  // namespace mlcp

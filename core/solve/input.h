@@ -1,4 +1,6 @@
 #pragma once
+#include <span>
+
 #include "assemble/mask.h"
 #include "assemble/problem.h"
 #include "solve/settings.h"
@@ -11,6 +13,9 @@ struct SolveInput {
   const Mask* enabled;  ///< NULL: every row
   const Settings& settings;
   double contradiction = 0;  ///< backward errors up to this, of rows that depend on each other, may stay: what tries to remove them costs most
+  /// Rows with the same number, not negative, are generators of one contact, whose error is relative to the largest of them: one that the motion of the
+  /// others holds at 0 has a scale of its own that is rounding. Empty: each row for itself.
+  std::span<const std::int32_t> contact_of_row = {};
 };
 
 }  // namespace mlcp

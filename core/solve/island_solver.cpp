@@ -10,6 +10,8 @@ namespace {
 
 /// Islands of so few rows are pivoted: each step is a solve that Newton needs too.
 constexpr std::int32_t few_rows = 2;
+/// Of crowded islands of so many rows a change takes hundreds of pivots, where the steps of interior points are as few as ever.
+constexpr std::int32_t many_rows = 300;
 /// A guess by Gauss-Seidel pays where a row's response is about as short as the row: bodies, not robots.
 constexpr std::int64_t short_response = 24;
 
@@ -43,7 +45,7 @@ class Run {
     }
     if (before.semidefinite || before.method == MLCP_METHOD_PGS || input_.settings.method == MLCP_METHOD_NEWTON) return solve(true, trace);
     if (island_.crowded) {
-      give_up();
+      if (rows_ < many_rows || !interior_points()) give_up();
       return;
     }
     pivot(trace);
@@ -132,6 +134,16 @@ class Run {
     end_.epsilon = newton.epsilon();
     end_.semidefinite = newton.semidefinite();
     if (end_.outcome == MLCP_NOT_POSITIVE_DEFINITE) end_.indefinite = basis_.factor.failed_position(island_);
+    return end_.outcome != MLCP_ITERATION_LIMIT;
+  }
+
+  /// false: they gave up.
+  bool interior_points() {
+    Newton newton(basis_, limits_, end_.counts);
+    end_.method = MLCP_METHOD_NEWTON;
+    end_.outcome = newton.solve_by_interior_points(island_);
+    end_.epsilon = newton.epsilon();
+    end_.kept = end_.outcome == MLCP_SOLVED && end_.epsilon <= sharp_epsilon;
     return end_.outcome != MLCP_ITERATION_LIMIT;
   }
 

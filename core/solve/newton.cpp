@@ -20,7 +20,7 @@ constexpr int most_descents = 30, most_inner_steps = 60;
 /// Rounding may move a row once more after the refined point.
 constexpr int most_rounds = 5;
 /// Of its first value: what the interior points are followed down to.
-constexpr double reduced_gap = 1e-10;
+constexpr double reduced_gap = 1e-14;
 /// Of the largest Mⱼⱼ, where M is only semidefinite.
 constexpr double semidefinite_delta = 1e-8;
 
@@ -224,6 +224,20 @@ mlcp_outcome Newton::resume(const Island& island, std::span<const Flip> flips, d
   if (ending == Ending::settled) ending = epsilon > 0 ? sharp_rounds(island, most_rounds) : exact_rounds(island);
   if (ending == Ending::settled) return MLCP_SOLVED;
   basis_.values.regularise(*basis_.pattern, island, 0, 0);
+  return ending == Ending::stopped ? stopped_ : MLCP_ITERATION_LIMIT;
+}
+
+mlcp_outcome Newton::solve_by_interior_points(const Island& island) {
+  warm_ = true;
+  keep(island);
+  proximal_.enter(island);
+  proximal_.center_here(island);
+  delta_ = 0;
+  feasible_ = false;
+  const Ending ending = interior(island);
+  if (ending == Ending::settled) return MLCP_SOLVED;
+  basis_.values.regularise(*basis_.pattern, island, 0, 0);
+  go_back(island);
   return ending == Ending::stopped ? stopped_ : MLCP_ITERATION_LIMIT;
 }
 

@@ -27,6 +27,8 @@ class Newton {
   /// Goes on from an answer that the factor with this ε belongs to, after numbers of rows have changed: `flips` first, then full steps.
   /// SOLVED: the basis holds the answer. ITERATION_LIMIT: it takes more than that.
   mlcp_outcome resume(const Island& island, std::span<const Flip> flips, double epsilon);
+  /// From impulses that solved a problem nearby, along the path of interior points alone. As solve().
+  mlcp_outcome solve_by_interior_points(const Island& island);
   /// Among the impulses that give this velocity, those with the least Σ aᵢγᵢ²: the proximal point around 0 as ε → 0. before: the basis holds an
   /// answer. false: not found, and the point is what it was.
   bool least_norm(const Island& island);

@@ -157,19 +157,15 @@ TEST(Dissection, ElementsAreSeparated) {
   }
 }
 
-/// Without METIS such a graph stays whole.
-TEST(Dissection, LargeBulkyGraphsAreCutByMetis) {
+/// By METIS, or by a level that happens to be thin.
+TEST(Dissection, LargeBulkyGraphsAreCut) {
   const int side = 12;  // bodies an edge, a row for each pair of neighbours
   mlcp::Problem problem = empty_problem();
   for (int i = 0; i < side * side * side; ++i) add_body(problem, Eigen::MatrixXd::Identity(1, 1));
   for (const auto& [i, j] : grid(side, side)) add_row(problem, {{i, 1}, {j, -1}});
   const Cut c(problem), again(problem);
   expect_separators(c);
-  if (!mlcp::Separator::available()) {
-    EXPECT_EQ(c.dissection.parent.size(), 1u);
-    return;
-  }
-  EXPECT_GE(c.dissection.parent.size(), 7u);
+  if (!mlcp::Separator::available()) return;
   int root = 0;
   for (const int home : c.dissection.home) root += home == 0;
   EXPECT_LE(root, 4 * side * side);

@@ -121,6 +121,23 @@ TEST(Errors, EmptyProblemHasNone) {
   EXPECT_EQ(e.worst_velocity, -1);
 }
 
+/// Two rows of one contact: the error of each is relative to the larger scale, that of a third row to its own.
+TEST(Errors, RowsOfAContactAreMeasuredTogether) {
+  mlcp::Problem p = empty_problem();
+  add_body(p, 3, 1);
+  for (int j = 0; j < 3; ++j) add_row(p, {{j, 1}}, 0, {-mlcp::infinity, mlcp::infinity});
+  const std::vector<double> v{1e-3, 1e-17, 1e-17}, gamma{1, 1, 1};
+  const std::vector<std::int32_t> contact_of_row{0, 0, -1};
+  mlcp::Measure alone{mlcp::Memory()}, together{mlcp::Memory()};
+  alone.run(p, nullptr, v, gamma);
+  together.run(p, nullptr, v, gamma, contact_of_row);
+  EXPECT_EQ(alone.error[1], 1);
+  EXPECT_EQ(together.error[1], 1e-17 / 1e-3);
+  EXPECT_EQ(together.error[0], alone.error[0]);
+  EXPECT_EQ(together.error[2], alone.error[2]);
+  EXPECT_EQ(together.residual[1], alone.residual[1]);
+}
+
 /// Random points of random problems against the definitions of the design, written out.
 TEST(Errors, EqualTheDefinitionsWrittenOut) {
   for (int seed = 0; seed < 2000; ++seed) {
