@@ -40,7 +40,7 @@ void check_indices(const SymmetricInput& a, Marker& marker) {
 /// have them, and pattern and slots are those of the input.  false: it is not so, or something is wrong with it.
 /// after true: as place().       cost: 1 step an entry
 bool take_sorted(const SymmetricInput& a, std::int32_t entries, EditWorkspace& work) {
-  if (a.triangle != MLCP_FULL) return false;
+  if (a.triangle != MLCP_FULL || a.size == 0) return false;  // of a size of 0, column_pointers may be null
   const std::int32_t *start = a.column_pointers, *rows = a.row_indices;
   std::int32_t* slot = work.slot.data();
   work.index.resize(a.size);

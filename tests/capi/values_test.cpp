@@ -154,6 +154,13 @@ TEST_F(Values, ComplianceMatrixReplacesEveryCompliance) {
   EXPECT_EQ(fields().compliance, (std::vector<double>{0, 0, 0, 0}));
 }
 
+TEST_F(Values, ComplianceMatrixOfNoRowsWithoutArrays) {
+  ASSERT_EQ(mlcp_problem_rows_clear(p), MLCP_OK);
+  for (mlcp_triangle triangle : {MLCP_FULL, MLCP_LOWER, MLCP_UPPER})
+    EXPECT_EQ(mlcp_problem_set_compliance_matrix(p, 0, nullptr, nullptr, nullptr, triangle), MLCP_OK) << mlcp_problem_error(p);
+  EXPECT_EQ(compliance_of(p).pointers, std::vector<int32_t>{0});
+}
+
 TEST_F(Values, ComplianceMatrixIndefiniteDiagonalOnlyWithoutEntries) {
   EXPECT_EQ(set_sigma(p, 4, {0, 0, 1, 1, 1}, {1}, {-2}), MLCP_OK);
   expect_refused(p, MLCP_ERROR_ARGUMENT, "diagonal entry 2", [&] { return set_sigma(p, 4, {0, 0, 0, 1, 1}, {2}, {-2}); });
