@@ -6,7 +6,10 @@ namespace mlcp {
 namespace {
 
 /// What the dense way is for. Beyond, sparse factors touch less, and an order that was found once is worth keeping.
-constexpr std::int32_t most_velocities = 96, most_rows = 96;
+constexpr std::int32_t small = 96;
+/// Up to here it is for islands with so many entries that a sparse factor would fill in anyway.
+constexpr std::int32_t medium = 200;
+constexpr double hardly_sparse = 0.1;
 /// Errors above this are refined, and left to the sparse way if that does not help.
 constexpr double refined = 1e-13;
 /// A momentum error up to this is rounding.
@@ -17,14 +20,32 @@ constexpr double holds = 1e-9;
 
 }  // namespace
 
+/// Entries of M, J and (where there are rows alone) Σ that component c has, as a part of those that it could have.
+double DenseStage::density(const Problem& problem, std::int32_t c) const {
+  const SparseView mass = problem.mass_view(), jacobian = problem.jacobian_view(), sigma = problem.compliance_view();
+  const auto count = [](const SparseView& a, const std::int32_t* columns, std::int32_t number) {
+    double sum = 0;
+    for (std::int32_t i = 0; i < number; ++i) sum += a.pointers[columns[i] + 1] - a.pointers[columns[i]];
+    return sum;
+  };
+  const std::int32_t *velocity = components.velocities.data() + components.velocity_pointers[c], *row = components.rows.data() + components.row_pointers[c];
+  const double n = components.velocity_count(c), m = components.row_count(c);
+  return n > 0 ? (count(mass, velocity, components.velocity_count(c)) / 2 + count(jacobian, row, components.row_count(c))) / (n * n / 2 + n * m)
+               : count(sigma, row, components.row_count(c)) / (m * m);
+}
+
 bool DenseStage::takes(const SolveInput& input) {
   const Settings& s = input.settings;
   if (s.method != MLCP_METHOD_AUTO || s.trace || s.impulses != MLCP_IMPULSES_ANY || s.max_iterations > 0 || s.max_work > 0) return false;
   knew_ = !components.update(input.problem, input.enabled);
   prepared_ &= knew_;
-  for (std::int32_t c = 0; c < components.count(); ++c)
-    if (components.velocity_count(c) > most_velocities || components.row_count(c) > most_rows) return false;
-  return true;
+  if (knew_) return fits_;
+  fits_ = true;
+  for (std::int32_t c = 0; c < components.count() && fits_; ++c) {
+    const std::int32_t size = std::max(components.velocity_count(c), components.row_count(c));
+    fits_ = size <= small || (size <= medium && density(input.problem, c) >= hardly_sparse);
+  }
+  return fits_;
 }
 
 bool DenseStage::solve(const SolveInput& input, const Mask* start, Watch& watch, Crew& crew, Measure& measure, Result& result, Errors& errors,

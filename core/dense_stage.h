@@ -28,7 +28,9 @@ class DenseStage {
   bool refine(std::int32_t c, const Measure& measure, bool rows_alone, Result& result);
   void mark_redundant(std::int32_t c, const Measure& measure, Result& result);
 
-  bool knew_ = false, prepared_ = false;
+  double density(const Problem& problem, std::int32_t c) const;
+
+  bool knew_ = false, fits_ = false, prepared_ = false;
   DenseResponse response_;
   Array<Counts> counts_;        // by component
   Array<std::uint8_t> solved_;  // likewise

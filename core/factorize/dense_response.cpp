@@ -6,7 +6,7 @@ namespace mlcp {
 namespace {
 
 std::int64_t real_count(std::int64_t m, std::int64_t blocks, std::int64_t panels) {
-  return BlockLdl::reals(blocks) + 12 * blocks + 16 * blocks * panels + 16 * panels * panels + BlockLdl::reals(panels) + 4 * panels + 5 * m +
+  return BlockLdl::reals(blocks) + 12 * blocks + 16 * blocks * panels + 32 * panels * panels + BlockLdl::reals(panels) + 4 * panels + 7 * m +
          4 * (blocks + panels) + 16 * blocks;
 }
 std::int64_t integer_count(std::int64_t m, std::int64_t blocks, std::int64_t panels) { return blocks + 3 * panels + m; }
@@ -65,9 +65,10 @@ DenseIsland DenseResponse::island(std::int32_t c) {
   s.a = take(real, 16 * panels * panels);
   s.active.lower = take(real, BlockLdl::reals(panels));
   s.active.inverse = take(real, 4 * panels);
-  for (double** part : {&s.b, &s.size, &s.lo, &s.hi, &s.gamma}) *part = take(real, m);
+  for (double** part : {&s.b, &s.size, &s.lo, &s.hi, &s.gamma, &s.w, &s.scale}) *part = take(real, m);
   s.x = take(real, 4 * (blocks + panels));
   s.scaled = take(real, 16 * blocks);
+  s.tableau = take(real, 16 * panels * panels);
   s.mass.first = take(integer, blocks);
   for (std::int32_t** part : {&s.begin, &s.end, &s.active.first}) *part = take(integer, panels);
   s.member = take(integer, m);

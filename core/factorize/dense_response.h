@@ -29,6 +29,8 @@ struct DenseIsland {
   std::int32_t* members;                ///< how many
   double* gamma;
   std::uint8_t* state;                 ///< m: where each row stands, for the method
+  double* tableau;                     ///< 4 panels rows of 4 panels: DenseTableau
+  double *w, *scale;                   ///< m: slacks, and their terms by magnitude, for the method
   double* x;                           ///< 4 blocks + 4 panels: scratch
   double* scaled;                      ///< 16 blocks: D⁻¹ times a panel
   const Kernels* kernels;

@@ -5,6 +5,6 @@
 
 namespace mlcp {
 
-const Kernels portable_kernels{forward, combine, backward, rank_one, panel_forward, block_eliminate, panel_scale, panel_product};
+const Kernels portable_kernels{forward, combine, backward, rank_one, panel_forward, block_eliminate, panel_scale, panel_product, sweep};
 
 }  // namespace mlcp

@@ -46,6 +46,9 @@ struct Kernels {
   void (*panel_scale)(std::int64_t count, const double* y, const double* inverse, const double* k, double* scaled, double* sum);
   /// tile(r, lane) := Σ_q x[4q + r] y[4q + lane] over `count` entries q.
   void (*panel_product)(std::int64_t count, const double* x, const double* y, double* tile);
+  /// A principal pivot on p of the symmetric tableau T, as Tableau::sweep: the lower triangle, in rows of `stride` entries, a multiple of four. sign: 1
+  /// takes p in, −1 out. column: room for `stride` entries.     cost: size² / 2
+  void (*sweep)(std::int64_t size, std::int64_t stride, double* t, std::int64_t p, double sign, double* column);
 };
 
 /// The table for the CPU this runs on.

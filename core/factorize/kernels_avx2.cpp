@@ -7,7 +7,7 @@
 
 namespace mlcp {
 
-const Kernels avx2_kernels{forward, combine, backward, rank_one, panel_forward, block_eliminate, panel_scale, panel_product};
+const Kernels avx2_kernels{forward, combine, backward, rank_one, panel_forward, block_eliminate, panel_scale, panel_product, sweep};
 
 }  // namespace mlcp
 #endif

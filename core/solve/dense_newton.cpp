@@ -5,12 +5,15 @@
 
 #include "factorize/dot.h"
 #include "solve/basis.h"
+#include "solve/dense_simplex.h"
 
 namespace mlcp {
 namespace {
 
 /// Full steps may go on so often without fewer changes than ever before.
-constexpr int patience = 3;
+constexpr int patience = 1;
+/// Rows that the pivoting method has taken in are independent, as far as that can be told.
+constexpr double found_pivot = 1e-14;
 /// Sweeps of the guess: it stands when two in turn leave the same rows active.
 constexpr int most_sweeps = 8;
 
@@ -76,40 +79,51 @@ std::int32_t DenseNewton::flip() {
   return flips;
 }
 
-bool DenseNewton::solve(bool warm) {
-  if (!warm) guess();
-  std::int32_t fewest = s_.m + 1;
-  for (int left = patience;;) {
-    *s_.members = 0;
-    for (std::int32_t i = 0; i < s_.m; ++i) {
+/// A, factored and solved on the active rows; rows with a pivot of at most drop · Aᵢᵢ go to rest.  returns the rows that change their state.
+std::int32_t DenseNewton::step(double drop) {
+  *s_.members = 0;
+  for (std::int32_t i = 0; i < s_.m; ++i) {
+    if (s_.state[i] != ActiveSet::active) continue;
+    s_.gamma[i] = 0;
+    s_.member[(*s_.members)++] = i;
+  }
+  const std::int32_t wanted = *s_.members;
+  DenseResponse::factor_active(s_, drop);
+  if (*s_.members < wanted) {
+    for (std::int32_t i = 0, t = 0; i < s_.m; ++i) {
       if (s_.state[i] != ActiveSet::active) continue;
-      s_.gamma[i] = 0;
-      s_.member[(*s_.members)++] = i;
+      if (t < *s_.members && s_.member[t] == i)
+        ++t;
+      else
+        rest(i, ActiveSet::resting(s_.lo[i], s_.hi[i]));
     }
-    const std::int32_t wanted = *s_.members;
-    DenseResponse::factor_active(s_, dependent_pivot);
-    if (*s_.members < wanted) {
-      for (std::int32_t i = 0, t = 0; i < s_.m; ++i) {
-        if (s_.state[i] != ActiveSet::active) continue;
-        if (t < *s_.members && s_.member[t] == i)
-          ++t;
-        else
-          rest(i, ActiveSet::resting(s_.lo[i], s_.hi[i]));
-      }
-    }
-    DenseResponse::solve_active(s_);
-    ++counts_.pivots;
-    ++counts_.factorizations;
-    counts_.work += static_cast<std::int64_t>(s_.m) * s_.m;
-    const std::int32_t flips = flip();
+  }
+  DenseResponse::solve_active(s_);
+  ++counts_.pivots;
+  ++counts_.factorizations;
+  counts_.work += static_cast<std::int64_t>(s_.m) * s_.m;
+  return flip();
+}
+
+/// false: they do not end.
+bool DenseNewton::full_steps(double drop) {
+  std::int32_t fewest = s_.m + 1;
+  for (int left = patience; left >= 0;) {
+    const std::int32_t flips = step(drop);
     if (flips == 0) return true;
     if (flips < fewest) {
       fewest = flips;
       left = patience;
-    } else if (--left < 0) {
-      return false;
+    } else {
+      --left;
     }
   }
+  return false;
+}
+
+bool DenseNewton::solve(bool warm) {
+  if (!warm) guess();
+  return full_steps(dependent_pivot) || (DenseSimplex(s_, zero_, counts_).solve() && full_steps(found_pivot));
 }
 
 }  // namespace mlcp

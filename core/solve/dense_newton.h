@@ -6,8 +6,8 @@
 namespace mlcp {
 
 /// Newton's method on one small island: full primal-dual active-set steps on the dense A (Hintermüller, Ito & Kunisch 2002), each a factorization of
-/// A on the active rows, after a few Gauss-Seidel sweeps where there is no start. Rows that depend on active ones rest. It is quick or
-/// gives up: cycles, wrong pivots and infeasible islands are for the methods on the sparse factor.
+/// A on the active rows, after a few Gauss-Seidel sweeps where there is no start. Rows that depend on active ones rest. Where full steps run in circles
+/// DenseSimplex finds the active set. What neither can solve, and infeasible islands, are for the methods on the sparse factor.
 class DenseNewton {
  public:
   /// zero: slacks up to this, relative to their terms, count as zero.
@@ -21,6 +21,8 @@ class DenseNewton {
  private:
   void guess();
   std::int32_t flip();
+  std::int32_t step(double drop);
+  bool full_steps(double drop);
   void rest(std::int32_t i, ActiveSet::State to);
 
   DenseIsland& s_;
