@@ -82,7 +82,7 @@ bool DenseStage::solve_island(const SolveInput& input, const Mask* start, std::i
   DenseIsland island = response_.island(c);
   DenseNewton newton(island, zero_slack(input.settings), counts_[c]);
   newton.start(input.problem, start);
-  if (!newton.solve(start != nullptr)) return false;
+  if (!newton.solve(start != nullptr, !input.follows_shifts())) return false;
   DenseResponse::velocities(island);
   for (std::int32_t p = 0; p < island.n; ++p) result.v[island.velocity(p)] = island.x[p];
   for (std::int32_t i = 0; i < island.m; ++i) {

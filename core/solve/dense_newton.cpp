@@ -11,7 +11,9 @@ namespace mlcp {
 namespace {
 
 /// Full steps may go on so often without fewer changes than ever before.
-constexpr int patience = 1;
+constexpr int patience = 3;
+/// Where pivots are open.
+constexpr int short_patience = 1;
 /// Rows that the pivoting method has taken in are independent, as far as that can be told.
 constexpr double found_pivot = 1e-14;
 /// Sweeps of the guess: it stands when two in turn leave the same rows active.
@@ -105,8 +107,15 @@ std::int32_t DenseNewton::step(double drop) {
   return flip();
 }
 
+/// Of several rows that hold a joint together each is to carry its share, which the sparse factor with its ε gives them.
+bool DenseNewton::dropped_joints() const {
+  for (std::int32_t i = 0; i < s_.m; ++i)
+    if (s_.state[i] == ActiveSet::out) return true;
+  return false;
+}
+
 /// false: they do not end.
-bool DenseNewton::full_steps(double drop) {
+bool DenseNewton::full_steps(double drop, int patience) {
   std::int32_t fewest = s_.m + 1;
   for (int left = patience; left >= 0;) {
     const std::int32_t flips = step(drop);
@@ -121,9 +130,10 @@ bool DenseNewton::full_steps(double drop) {
   return false;
 }
 
-bool DenseNewton::solve(bool warm) {
+bool DenseNewton::solve(bool warm, bool pivots) {
   if (!warm) guess();
-  return full_steps(dependent_pivot) || (DenseSimplex(s_, zero_, counts_).solve() && full_steps(found_pivot));
+  if (full_steps(dependent_pivot, pivots ? short_patience : patience)) return true;
+  return pivots && !dropped_joints() && DenseSimplex(s_, zero_, counts_).solve() && full_steps(found_pivot, short_patience);
 }
 
 }  // namespace mlcp

@@ -16,13 +16,15 @@ class DenseNewton {
   /// Puts every row where the start has it. NULL: rows that may push both ways are active.
   void start(const Problem& problem, const Mask* mask);
   /// before: start(). after: the active set, its factor and its impulses.  false: given up.
-  bool solve(bool warm);
+  /// pivots: rows that depend on others may rest, wherever that leaves the load.
+  bool solve(bool warm, bool pivots);
 
  private:
   void guess();
   std::int32_t flip();
   std::int32_t step(double drop);
-  bool full_steps(double drop);
+  bool dropped_joints() const;
+  bool full_steps(double drop, int patience);
   void rest(std::int32_t i, ActiveSet::State to);
 
   DenseIsland& s_;

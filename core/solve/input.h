@@ -16,6 +16,10 @@ struct SolveInput {
   /// Rows with the same number, not negative, are generators of one contact, whose error is relative to the largest of them: one that the motion of the
   /// others holds at 0 has a scale of its own that is rounding. Empty: each row for itself.
   std::span<const std::int32_t> contact_of_row = {};
+
+  /// The solve is one step of an iteration on friction: rows that depend on each other share their load, since one that rests in a step and
+  /// carries all of it in the next keeps the iteration from settling.
+  bool follows_shifts() const { return contradiction > 0; }
 };
 
 }  // namespace mlcp

@@ -12,6 +12,8 @@ namespace {
 constexpr std::int32_t few_rows = 2;
 /// Of crowded islands of so many rows a change takes hundreds of pivots, where the steps of interior points are as few as ever.
 constexpr std::int32_t many_rows = 300;
+/// Where pivots touch so few rows, those that Newton has left to do are fewer than the steps of its descent.
+constexpr std::int32_t few_to_pivot = 1000;
 /// A guess by Gauss-Seidel pays where a row's response is about as short as the row: bodies, not robots.
 constexpr std::int64_t short_response = 24;
 
@@ -60,7 +62,8 @@ class Run {
       return;
     }
     if (method == MLCP_METHOD_PGS && sweep()) return;
-    if (newton(warm)) return;
+    if (pivots_are_cheap() && (newton(warm, false) || pivots_end(trace))) return;
+    if (newton(warm, true)) return;
     give_up();
     if (island_.crowded) return;
     limits_.restart(end_.counts);
@@ -73,6 +76,16 @@ class Run {
     end_.outcome = MLCP_ITERATION_LIMIT;
     end_.gave_up = true;
     end_.crowded = island_.crowded;
+  }
+
+  /// From where full steps got to. false: no answer; the start is once more rows at rest.
+  bool pivots_end(Array<mlcp_pivot>* trace) {
+    limits_.restart(end_.counts);
+    pivot(trace);
+    if (end_.outcome != MLCP_ITERATION_LIMIT && end_.outcome != MLCP_INFEASIBLE) return true;
+    end_.certificate_rows = 0;
+    limits_.restart(end_.counts);
+    return false;
   }
 
   void try_again(Array<mlcp_pivot>* trace) {
@@ -123,14 +136,14 @@ class Run {
   }
 
   /// false: it gave up.
-  bool newton(bool warm) {
+  bool newton(bool warm, bool to_the_end) {
     if (!warm && guessable()) {
       GaussSeidel sweeps(basis_, limits_, end_.counts);
       if (sweeps.prepare(island_)) sweeps.guess(island_);
     }
     Newton newton(basis_, limits_, end_.counts);
     end_.method = MLCP_METHOD_NEWTON;
-    end_.outcome = newton.solve(island_, warm);
+    end_.outcome = newton.solve(island_, warm, to_the_end);
     end_.epsilon = newton.epsilon();
     end_.semidefinite = newton.semidefinite();
     if (end_.outcome == MLCP_NOT_POSITIVE_DEFINITE) end_.indefinite = basis_.factor.failed_position(island_);
@@ -146,6 +159,8 @@ class Run {
     end_.kept = end_.outcome == MLCP_SOLVED && end_.epsilon <= sharp_epsilon;
     return end_.outcome != MLCP_ITERATION_LIMIT;
   }
+
+  bool pivots_are_cheap() const { return input_.settings.method == MLCP_METHOD_AUTO && !input_.follows_shifts() && !island_.crowded && rows_ <= few_to_pivot; }
 
   bool guessable() const {
     const MassParts& parts = basis_.response.parts();

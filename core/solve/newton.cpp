@@ -189,7 +189,7 @@ Newton::Ending Newton::interior(const Island& island) {
   return sharp(island, 2);
 }
 
-mlcp_outcome Newton::solve(const Island& island, bool warm) {
+mlcp_outcome Newton::solve(const Island& island, bool warm, bool to_the_end) {
   warm_ = warm;
   keep(island);
   proximal_.enter(island);
@@ -197,7 +197,7 @@ mlcp_outcome Newton::solve(const Island& island, bool warm) {
   delta_ = 0;
   feasible_ = false;
   Ending ending = island.crowded ? Ending::dependent : exact(island);
-  for (int attempt = 0; attempt < 3 && ending != Ending::settled && ending != Ending::stopped; ++attempt) {
+  for (int attempt = 0; attempt < (to_the_end ? 3 : 1) && ending != Ending::settled && ending != Ending::stopped; ++attempt) {
     go_back(island);
     ending = attempt == 0 ? sharp(island, 4) : attempt == 1 ? interior(island) : descent(island);
   }

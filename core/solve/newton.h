@@ -22,8 +22,8 @@ class Newton {
 
   /// before: states, and impulses where they are known (x of the rows).
   /// SOLVED: the basis holds the answer. ITERATION_LIMIT: it gave up, and the active set is the best start that it knows.
-  /// warm: the start solved a problem nearby.
-  mlcp_outcome solve(const Island& island, bool warm);
+  /// warm: the start solved a problem nearby. to_the_end: whether interior points and descent are tried where full steps get stuck.
+  mlcp_outcome solve(const Island& island, bool warm, bool to_the_end);
   /// Goes on from an answer that the factor with this ε belongs to, after numbers of rows have changed: `flips` first, then full steps.
   /// SOLVED: the basis holds the answer. ITERATION_LIMIT: it takes more than that.
   mlcp_outcome resume(const Island& island, std::span<const Flip> flips, double epsilon);

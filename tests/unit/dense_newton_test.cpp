@@ -16,7 +16,7 @@ struct Tally {
 };
 
 /// Runs every island of the problem from the mask (NULL: from a guess).
-void run(const mlcp::Problem& p, const mlcp::Mask* start, Tally& tally) {
+void run(const mlcp::Problem& p, const mlcp::Mask* start, bool pivots, Tally& tally) {
   mlcp::Components components{mlcp::Memory()};
   components.update(p, nullptr);
   mlcp::DenseResponse response{mlcp::Memory()};
@@ -28,7 +28,7 @@ void run(const mlcp::Problem& p, const mlcp::Mask* start, Tally& tally) {
     mlcp::Counts counts;
     mlcp::DenseNewton newton(s, zero, counts);
     newton.start(p, start);
-    if (!newton.solve(start != nullptr)) continue;
+    if (!newton.solve(start != nullptr, pivots)) continue;
     ++tally.done;
     for (int i = 0; i < s.m; ++i) {
       Real w = reduced.b[s.row[i]], size = reduced.size[s.row[i]] + std::abs(w);
@@ -64,11 +64,30 @@ TEST(DenseNewton, EndsWithEveryRowWhereItBelongs) {
     Random random(seed);
     const mlcp::Problem p = boxes(random);
     const mlcp::Mask start = random_mask(random, p.m());
-    run(p, nullptr, tally);
-    run(p, &start, tally);
+    run(p, nullptr, false, tally);
+    run(p, &start, false, tally);
   }
   EXPECT_GT(tally.done, 500);
   EXPECT_GT(tally.rows_at_upper, 300);
+}
+
+/// More rows than velocities, many of them twice: full steps alone run in circles on most of these.
+TEST(DenseNewton, PivotsWhereRowsDependOnEachOther) {
+  Tally stepping, pivoting;
+  for (int seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    mlcp::Problem p = random_problem(random, {.rows_least = 10, .rows_most = 30, .prescribed = 0, .duplicate = 0.3});
+    for (std::int32_t i = 0; i < p.m(); ++i) {
+      p.lo[i] = -random.uniform();
+      p.hi[i] = p.lo[i] + random.uniform(0.1, 1);
+    }
+    const mlcp::Mask start = random_mask(random, p.m());
+    run(p, &start, false, stepping);
+    run(p, &start, true, pivoting);
+  }
+  EXPECT_GT(pivoting.done, 295);
+  EXPECT_LT(stepping.done, pivoting.done - 50);
 }
 
 }  // namespace
