@@ -79,7 +79,7 @@ bool DenseStage::solve(const SolveInput& input, const Mask* start, Watch& watch,
 
 bool DenseStage::solve_island(const SolveInput& input, const Mask* start, std::int32_t c, Result& result) {
   if (!response_.compute(input.problem, c)) return false;
-  DenseIsland island = response_.island(c);
+  DenseIsland& island = response_.island(c);
   DenseNewton newton(island, zero_slack(input.settings), counts_[c]);
   newton.start(input.problem, start);
   if (!newton.solve(start != nullptr, !input.follows_shifts())) return false;
@@ -95,7 +95,7 @@ bool DenseStage::solve_island(const SolveInput& input, const Mask* start, std::i
 /// One step against the residuals that the measurement has found. Once momentum is rounding its residual is left out, as in Refinement: then the
 /// correction is as small as the rows' own residuals.  false: there is nothing to do.
 bool DenseStage::refine(std::int32_t c, const Measure& measure, bool rows_alone, Result& result) {
-  DenseIsland s = response_.island(c);
+  DenseIsland& s = response_.island(c);
   double momentum = 0, rows = 0;
   for (std::int32_t p = 0; p < s.n; ++p) momentum = std::max(momentum, measure.velocity_error(s.velocity(p)));
   for (std::int32_t i = 0; i < s.m; ++i) rows = std::max(rows, measure.error[s.row[i]]);
@@ -111,7 +111,7 @@ bool DenseStage::refine(std::int32_t c, const Measure& measure, bool rows_alone,
 
 /// As mark_redundant: rows that hold, rest, and have a Schur pivot of at most dependent_pivot · a.
 void DenseStage::mark_redundant(std::int32_t c, const Measure& measure, Result& result) {
-  const DenseIsland s = response_.island(c);
+  const DenseIsland& s = response_.island(c);
   for (std::int32_t i = 0; i < s.m; ++i) {
     const std::int32_t row = s.row[i];
     if (s.state[i] == ActiveSet::active) continue;

@@ -179,7 +179,28 @@ void expand_values(const char* name, const SymmetricPattern& a, const double* va
   }
 }
 
+/// Where the columns ascend and have their diagonals, as those of take_sorted do: columns of a symmetric matrix are its rows.
+/// after true: as sort_with_diagonal().
+bool take_columns_as_rows(std::int32_t size, EditWorkspace& work) {
+  const auto& [from, rows, numbers] = work.expanded;
+  work.index.resize(size);
+  for (std::int32_t j = 0; j < size; ++j) {
+    std::int32_t diagonal = none;
+    for (std::int32_t p = from[j]; p < from[j + 1]; ++p) {
+      if (p > from[j] && rows[p] < rows[p - 1]) return false;
+      if (rows[p] == j) diagonal = p;
+    }
+    if (diagonal == none) return false;
+    work.index[j] = diagonal;
+  }
+  work.sorted.pointers.swap(work.expanded.pointers);
+  work.sorted.indices.swap(work.expanded.indices);
+  work.sorted.values.swap(work.expanded.values);
+  return true;
+}
+
 void sort_with_diagonal(std::int32_t size, EditWorkspace& work) {
+  if (take_columns_as_rows(size, work)) return;
   const auto& [from, rows, numbers] = work.expanded;
   auto& [pointers, indices, values] = work.sorted;
   Array<std::int32_t>& position = work.index;

@@ -33,16 +33,18 @@ void DenseResponse::prepare(const Problem& problem, const Components& components
   states_.resize(components.rows.size());
   members_.resize(count);
   slots_.resize(problem.mass.values.size());  // more than there will be
+  islands_.resize(count);
   Slot* next = slots_.data();
   for (std::int32_t c = 0; c < count; ++c) {
-    DenseIsland s = island(c);
+    DenseIsland& s = islands_[c] = lay_out(c);
     places_[c].slots = next - slots_.data();
     next = find_envelopes(problem, s, next);
   }
   places_[count].slots = next - slots_.data();
 }
 
-DenseIsland DenseResponse::island(std::int32_t c) {
+/// Where the parts of component c are.
+DenseIsland DenseResponse::lay_out(std::int32_t c) {
   const Place& place = places_[c];
   double* real = reals_.data() + place.reals;
   std::int32_t* integer = integers_.data() + place.integers;
@@ -102,7 +104,7 @@ DenseResponse::Slot* DenseResponse::find_envelopes(const Problem& problem, Dense
 }
 
 bool DenseResponse::compute(const Problem& problem, std::int32_t component) {
-  DenseIsland s = island(component);
+  DenseIsland& s = islands_[component];
   const std::int64_t slots = places_[component].slots;
   if (!load_mass(problem, s, slots_.span().subspan(slots, places_[component + 1].slots - slots))) return false;
   for (std::int32_t c = 0; c < s.panels; ++c) {
@@ -182,24 +184,25 @@ void DenseResponse::respond(DenseIsland& s, std::int32_t c) {
   }
 }
 
-/// Loads block b of A on the members, with rows of the unit matrix behind the last one.
+/// Loads block b of A on the members, with rows of the unit matrix behind the last one; what is above the diagonal is of no effect. A is symmetric:
+/// four entries of one of its rows stand beside each other where members do.
 void DenseResponse::load_active(DenseIsland& s, std::int32_t b) {
-  const std::int32_t count = std::min(4, *s.members - 4 * b);
-  double* const block = s.active.block(b);
-  std::fill(block + 16 * b, block + 16 * (b + 1), 0.0);
-  std::int32_t begin = 4 * b;
-  for (std::int32_t r = 0; r < 4; ++r) {
-    double* const row = block + r;
-    if (r >= count) {
-      for (std::int32_t q = 0; q < 4 * b + 4; ++q) row[4 * q] = q == 4 * b + r;
-      continue;
+  const std::int32_t count = std::min(4, *s.members - 4 * b), columns = 4 * b + count;
+  const std::int32_t* const four = s.member + 4 * b;
+  double* entry = s.active.block(b);
+  std::int32_t begin = columns;
+  if (count == 4 && four[3] == four[0] + 3) {
+    for (std::int32_t q = 0; q < columns; ++q, entry += 4) std::copy_n(s.row_of_a(s.member[q]) + four[0], 4, entry);
+  } else {
+    for (std::int32_t q = 0; q < columns; ++q, entry += 4) {
+      const double* const a = s.row_of_a(s.member[q]);
+      for (std::int32_t r = 0; r < 4; ++r) entry[r] = r < count ? a[four[r]] : 0;
     }
-    const double* const a = s.row_of_a(s.member[4 * b + r]);
-    for (std::int32_t q = 4 * b + r; q >= 0; --q) {
-      row[4 * q] = a[s.member[q]];
-      if (row[4 * q] != 0) begin = std::min(begin, q);
-    }
+    for (std::int32_t q = columns; q < 4 * b + 4; ++q, entry += 4)
+      for (std::int32_t r = 0; r < 4; ++r) entry[r] = q == 4 * b + r;
   }
+  entry = s.active.block(b);
+  for (begin = 0; begin < 4 * b && entry[4 * begin] == 0 && entry[4 * begin + 1] == 0 && entry[4 * begin + 2] == 0 && entry[4 * begin + 3] == 0;) ++begin;
   s.active.first[b] = begin / 4;
 }
 

@@ -46,11 +46,11 @@ struct DenseIsland {
 /// The numbers of small islands. Each has its own part, so that several threads may work on different ones.
 class DenseResponse {
  public:
-  explicit DenseResponse(const Memory& m) : places_(m), local_(m), slots_(m), reals_(m), integers_(m), members_(m), states_(m) {}
+  explicit DenseResponse(const Memory& m) : places_(m), local_(m), slots_(m), reals_(m), integers_(m), members_(m), states_(m), islands_(m) {}
 
   /// Room for every component, and what follows from the pattern. allocates
   void prepare(const Problem& problem, const Components& components);
-  DenseIsland island(std::int32_t c);
+  DenseIsland& island(std::int32_t c) { return islands_[c]; }
   std::int64_t entries() const { return static_cast<std::int64_t>(reals_.size()); }
 
   /// Loads and factors M, forms A and b.  false: M is not positive definite, or some Aᵢᵢ is negative; 0 is legal: a row between
@@ -78,6 +78,7 @@ class DenseResponse {
   struct Slot {
     std::int32_t from, to;
   };
+  DenseIsland lay_out(std::int32_t c);
   /// And lists the entries of M from `slot` on.  returns behind the last one.
   Slot* find_envelopes(const Problem& problem, DenseIsland& island, Slot* slot);
   bool load_mass(const Problem& problem, DenseIsland& island, std::span<const Slot> slots);
@@ -95,6 +96,7 @@ class DenseResponse {
   Array<std::int32_t> integers_;
   Array<std::int32_t> members_;  // by component
   Array<std::uint8_t> states_;
+  Array<DenseIsland> islands_;
 };
 
 }  // namespace mlcp

@@ -22,4 +22,25 @@ inline double dot(const double* a, const double* b, std::int32_t count) {
   return i < count ? sum + a[i] * b[i] : sum;
 }
 
+/// dot := Σ aᵢbᵢ, size := Σ |aᵢbᵢ|, likewise.
+inline void dot_and_size(const double* a, const double* b, std::int32_t count, double& dot, double& size) {
+  using Pair [[gnu::vector_size(16), gnu::aligned(8), gnu::may_alias]] = double;
+  using Bits [[gnu::vector_size(16), gnu::aligned(8)]] = long long;
+  constexpr long long magnitude = 0x7fffffffffffffff;
+  const auto at = [](const double* x) { return *reinterpret_cast<const Pair*>(x); };
+  Pair sum{0, 0}, sizes{0, 0};
+  std::int32_t i = 0;
+  for (; i + 2 <= count; i += 2) {
+    const Pair term = at(a + i) * at(b + i);
+    sum += term;
+    sizes += reinterpret_cast<Pair>(reinterpret_cast<Bits>(term) & Bits{magnitude, magnitude});
+  }
+  dot = sum[0] + sum[1];
+  size = sizes[0] + sizes[1];
+  if (i == count) return;
+  const double term = a[i] * b[i];
+  dot += term;
+  size += term < 0 ? -term : term;
+}
+
 }  // namespace mlcp

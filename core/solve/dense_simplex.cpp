@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "factorize/dot.h"
+
 namespace mlcp {
 namespace {
 
@@ -72,14 +74,10 @@ bool DenseSimplex::drop_beyond_bounds() {
 
 void DenseSimplex::find_slacks() {
   for (std::int32_t i = 0; i < s_.m; ++i) {
-    const double* const a = s_.row_of_a(i);
-    double w = s_.b[i], scale = s_.size[i] + std::abs(w);
-    for (std::int32_t j = 0; j < s_.m; ++j) {
-      w += a[j] * s_.gamma[j];
-      scale += std::abs(a[j] * s_.gamma[j]);
-    }
-    s_.w[i] = is_in(i) ? 0 : w;
-    s_.scale[i] = scale;
+    double pushed, pushes;
+    dot_and_size(s_.row_of_a(i), s_.gamma, s_.m, pushed, pushes);
+    s_.w[i] = is_in(i) ? 0 : s_.b[i] + pushed;
+    s_.scale[i] = s_.size[i] + std::abs(s_.b[i]) + pushes;
   }
   counts_.work += static_cast<std::int64_t>(s_.m) * s_.m;
 }
