@@ -17,7 +17,7 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RATIO, FACTOR, KERNELS, BASIS = ("core/solve/ratio_test.cpp", "core/factorize/factor.cpp", "core/factorize/kernel_loops.h", "core/solve/basis.cpp")
 PANELS, BLOCKS, RESPONSE = ("core/factorize/panel_loops.h", "core/factorize/block_ldl.h", "core/factorize/dense_response.cpp")
-DENSE_NEWTON = "core/solve/dense_newton.cpp"
+DENSE_NEWTON, DENSE_SIMPLEX = "core/solve/dense_newton.cpp", "core/solve/dense_simplex.cpp"
 NEWTON, PROXIMAL, INTERIOR = ("core/solve/newton.cpp", "core/solve/proximal.cpp", "core/solve/interior_point.cpp")
 EXTENDED, SYMBOLIC = ("core/solve/extended_simplex.cpp", "core/analyze/symbolic.cpp")
 TESTS = ("unit_tests", "property_tests")
@@ -80,6 +80,18 @@ MUTATIONS = {
     "dense Newton: upper bounds never left": (DENSE_NEWTON, "s_.state[i] == ActiveSet::at_upper ? w > zero", "s_.state[i] == ActiveSet::at_upper ? false"),
     "dense Newton: dependent rows counted as active": (DENSE_NEWTON, "if (*s_.members < wanted) {", "if (false) {"),
     "dense Newton: no impulse at rest": (DENSE_NEWTON, "s_.gamma[i] = -ActiveSet::resting_x(to, s_.lo[i], s_.hi[i]);", "s_.gamma[i] = 0;"),
+    "dense Newton: dependent rows of joints pivoted": (DENSE_NEWTON, "if (s_.state[i] == ActiveSet::out) return true;", ""),
+    "dense tableau: one entry less": (PANELS, "for (std::int64_t j = 0; j <= i; j += 4)", "for (std::int64_t j = 0; j < i; j += 4)"),
+    "dense tableau: signs in and out": (PANELS, "= sign * factor;", "= factor;"),
+    "dense tableau: pivot": (PANELS, "t[p * stride + p] = -inverse;", "t[p * stride + p] = inverse;"),
+    "dense simplex: dependent rows are driven to w = 0": (DENSE_SIMPLEX, "const bool arrives = pivot > dependent * sum;", "const bool arrives = true;"),
+    "dense simplex: far bound forgotten": (DENSE_SIMPLEX, "    block(k, sign);\n", ""),
+    "dense simplex: nothing blocks": (DENSE_SIMPLEX, "block(j, -sign * share);", ";"),
+    "dense simplex: blocking row to the other bound": (DENSE_SIMPLEX, "-sign * tableau_(blocking, k) > 0 ?", "sign * tableau_(blocking, k) > 0 ?"),
+    "dense simplex: slacks stay": (DENSE_SIMPLEX, "s_.w[j] += sign * length * tableau_(j, k);", ";"),
+    "dense simplex: impulses stay": (DENSE_SIMPLEX, "s_.gamma[j] -= sign * length * tableau_(j, k);", ";"),
+    "dense simplex: start beyond bounds": (DENSE_SIMPLEX, "while (drop_beyond_bounds());", "while (false);"),
+    "dense simplex: start without impulses at rest": (DENSE_SIMPLEX, "if (!is_in(j)) rhs[i] += a[j] * s_.gamma[j];", ";"),
     "Newton: whole steps only": (NEWTON, "if (share > 0) flips = proximal_.largest", "if (false) flips = proximal_.largest"),
     "Newton: share never smaller": (NEWTON, "      ++share;\n", ""),
     "Newton: point not looked at again": (NEWTON, "if (finish(island) == Ending::settled) return Ending::settled;\n    if (flips_.empty())", "return Ending::settled;\n    if (flips_.empty())"),
