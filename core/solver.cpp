@@ -229,7 +229,6 @@ void Solver::State::make_canonical(const SolveInput& input, Watch& watch) {
 /// Small islands that ended without an answer, though no limit of the caller's has stopped them: once more, in extended precision.
 void Solver::State::extend(const SolveInput& input, Watch& watch, mlcp_report& report, Counts& counts) {
   const auto& islands = main.analysis.symbolic.islands;
-  bool changed = false;
   for (std::size_t s = 0; s < islands.size(); ++s) {
     IslandEnd& end = main.ends[s];
     const std::int32_t rows = islands[s].last_row - islands[s].first_row, index = static_cast<std::int32_t>(s);
@@ -244,9 +243,15 @@ void Solver::State::extend(const SolveInput& input, Watch& watch, mlcp_report& r
     if (result.island_outcome[s] != MLCP_SOLVED && result.island_outcome[s] != MLCP_INFEASIBLE) continue;
     main.collect(input.problem, islands[s], result);
     take_certificate(main.basis.work, islands[s], index, extended.certificate_rows());
-    changed = true;
+    const bool answers = result.island_outcome[s] == MLCP_SOLVED;
+    judge(input);
+    for (const double roundings : {0x1p2, 0x1p8, 0x1p14, 0x1p20}) {
+      if (!answers || result.island_outcome[s] == MLCP_SOLVED) break;
+      extended.still(roundings);
+      main.collect(input.problem, islands[s], result);
+      judge(input);
+    }
   }
-  if (changed) judge(input);
 }
 
 void Solver::State::look_at_result(const SolveInput& input) {

@@ -8,8 +8,6 @@ namespace {
 constexpr std::int32_t most_velocities = 96, most_rows = 96;
 /// Pivots up to this, relative to their terms, are rounding; so are shares of an impulse.
 constexpr double dependent = 0x1p14 * extended_epsilon, no_share = 0x1p30 * extended_epsilon;
-/// Velocities and impulses up to this, relative to the largest of the island in terms of energy, are rounding.
-constexpr double rounding = 0x1p20 * extended_epsilon;
 constexpr int refinements = 2;
 /// What a proof may leave of Jᵀy, relative to its terms: the product of two angles that doubles can tell from 0 is more.
 constexpr double proven = 0x1p24 * extended_epsilon;
@@ -250,8 +248,8 @@ void ExtendedSimplex::refine(const double* b, Extended* x, Counts& counts) {
   }
 }
 
-/// What cancels exactly comes out as rounding, which its own terms do not forgive: it becomes 0.
-void ExtendedSimplex::still() {
+void ExtendedSimplex::still(double roundings) {
+  const double rounding = roundings * extended_epsilon;
   const KktPattern& pattern = *basis_->pattern;
   const KktValues& values = basis_->values;
   const std::int32_t size = tableau_.size(), first = island_.first;
@@ -266,6 +264,7 @@ void ExtendedSimplex::still() {
   }
   for (std::int32_t p = 0; p < size; ++p)
     if (tableau_.in(p) && energy(p) <= rounding * rounding * largest) x_[p] = 0;
+  round_within_bounds();
 }
 
 mlcp_outcome ExtendedSimplex::run(const SolveInput& input, Limits& limits, Counts& counts) {
@@ -273,13 +272,16 @@ mlcp_outcome ExtendedSimplex::run(const SolveInput& input, Limits& limits, Count
   for (std::int32_t k = entering_row(); k >= 0; k = entering_row())
     if (const mlcp_outcome outcome = treat(input, k, limits, counts); outcome != MLCP_SOLVED) return outcome;
   refine(basis_->values.b.data(), x_.data(), counts);
-  still();
+  round_within_bounds();
+  return MLCP_SOLVED;
+}
+
+void ExtendedSimplex::round_within_bounds() {
   round();
   for (std::int32_t o = island_.first_row; o < island_.last_row; ++o) {
     double& x = basis_->set.x[basis_->position(o)];
     if (basis_->set.state[o] == ActiveSet::active) x = std::clamp(x, -basis_->values.hi[o], -basis_->values.lo[o]);
   }
-  return MLCP_SOLVED;
 }
 
 mlcp_outcome ExtendedSimplex::solve(const SolveInput& input, const Island& island, Basis& basis, Limits& limits, Counts& counts) {

@@ -22,6 +22,10 @@ class ExtendedSimplex {
   /// cost: a pivot size² / 2, in numbers that are a hundred times as slow as doubles.
   mlcp_outcome solve(const SolveInput& input, const Island& island, Basis& basis, Limits& limits, Counts& counts);
 
+  /// After SOLVED, where the answer is off: what cancels exactly comes out as rounding, which its own terms do not forgive. Velocities and impulses of up
+  /// to so many roundings of the largest of the island, in terms of energy, become 0; what is as small and does not cancel is lost with them, so few first.
+  void still(double roundings);
+
   /// Rows that the proof names: so many entries of Workspace::certificate_row and certificate_y from the island's first ordinal on.
   std::int32_t certificate_rows() const { return certificate_rows_; }
   void trim();  ///< gives memory back
@@ -46,8 +50,8 @@ class ExtendedSimplex {
   bool find_still_step(std::int32_t k, int sign, Counts& counts);
   bool certify(const SolveInput& input, std::int32_t k, int sign, Extended terms, Counts& counts);
   void refine(const double* b, Extended* x, Counts& counts);
-  void still();
   void round();
+  void round_within_bounds();
 
   Tableau tableau_;
   Array<Extended> x_, step_;    // by position: v and −γ; their change along a proof
