@@ -59,8 +59,10 @@ mlcp::Problem wedge(double angle) {
 TEST(ExtendedSimplex, AnglesOfWhichDoublesHoldNoSquare) {
   for (int power = 1; power <= 40; ++power) {
     const double angle = std::ldexp(1.0, -power);
-    const Extended s(wedge(angle));
+    Extended s(wedge(angle));
     ASSERT_EQ(s.outcome, MLCP_SOLVED) << power;
+    for (const double v : s.v()) EXPECT_LE(std::abs(v), 1e-40) << power;
+    s.method.still(0x1p4);
     EXPECT_EQ(s.v(), std::vector<double>({0, 0})) << power;
     const std::vector<double> gamma = s.gamma();
     EXPECT_EQ(gamma[0] + 2 * gamma[2], 0.5 / angle) << power;
