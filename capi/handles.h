@@ -7,6 +7,7 @@
 #include "contact_solver.h"
 #include "memory/error.h"
 #include "memory/memory.h"
+#include "memory/small_blocks.h"
 #include "report/failure_folder.h"
 
 /// Text of the last failed call on a handle.
@@ -33,12 +34,14 @@ struct mlcp_mask {
 };
 
 struct mlcp_solver {
+  mlcp::SmallBlocks blocks;
   mlcp::ContactSolver solver;
   mlcp_mask lent;  ///< what mlcp_solver_mask lends: the result's mask
   mlcp::FailureFolder failures;
   ErrorText error;
 
-  mlcp_solver(const mlcp::Settings& settings, const mlcp::Memory& memory) : solver(settings, memory), lent(memory), failures(memory) {}
+  mlcp_solver(const mlcp::Settings& settings, const mlcp::Memory& memory)
+      : blocks(memory), solver(settings, blocks.memory()), lent(blocks.memory()), failures(blocks.memory()) {}
 };
 
 namespace mlcp {

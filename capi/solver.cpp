@@ -63,7 +63,7 @@ mlcp_status mlcp_solver_create(const mlcp_settings* settings, const mlcp_allocat
 }
 
 void mlcp_solver_destroy(mlcp_solver* solver) {
-  if (solver) free_handle(solver, solver->solver.memory());
+  if (solver) free_handle(solver, solver->blocks.source());
 }
 
 mlcp_status mlcp_solver_set_settings(mlcp_solver* solver, const mlcp_settings* settings) {
