@@ -132,6 +132,18 @@ void place(const SymmetricInput& a, EditWorkspace& work) {
     }
 }
 
+/// What take_sorted has found, exactly symmetric: the values as they are.  false: it is not so, and what is in `out` is of no use.
+bool take_mirrored(const SymmetricPattern& a, const double* values, double* diagonal, double* out) {
+  if (a.triangle != MLCP_FULL) return false;
+  for (std::int64_t e = 0; e < a.count; ++e) {
+    const std::int32_t mirror = a.slot[2 * e + 1];
+    if (a.slot[2 * e] != e || values[e] != values[mirror]) return false;
+    out[e] = values[e];
+    if (mirror == e) diagonal[a.indices[e] - a.base] = values[e];
+  }
+  return true;
+}
+
 }  // namespace
 
 void expand(const SymmetricInput& input, EditWorkspace& work) {
@@ -156,9 +168,10 @@ void expand(const SymmetricInput& input, EditWorkspace& work) {
 
 void expand_values(const char* name, const SymmetricPattern& a, const double* values, double* diagonal,
                    std::span<double> out) {
+  std::fill(diagonal, diagonal + a.size, 0.0);
+  if (static_cast<std::int64_t>(out.size()) == a.count && take_mirrored(a, values, diagonal, out.data())) return;
   constexpr double missing = std::numeric_limits<double>::quiet_NaN();  // the caller's own values are finite
   if (static_cast<std::int64_t>(out.size()) > a.count) std::fill(out.begin(), out.end(), missing);
-  std::fill(diagonal, diagonal + a.size, 0.0);
   for (std::int64_t e = 0; e < a.count; ++e) {
     const std::int32_t p = a.slot[2 * e], q = a.slot[2 * e + 1];
     out[p] = values[e];
