@@ -15,6 +15,8 @@ constexpr double refined = 1e-13;
 /// A momentum error up to this is rounding.
 constexpr double settled = 2e-15;
 constexpr int most_refinements = 3;
+/// Of the terms of a momentum: a thousandth of a rounding.
+constexpr double lost = 2.5e-19;
 /// |w| up to this, relative to the scale of its error: the row holds.
 constexpr double holds = 1e-9;
 
@@ -71,7 +73,11 @@ bool DenseStage::solve(const SolveInput& input, const Mask* start, Watch& watch,
     errors = measure.run(problem, input.enabled, result.v.span(), result.gamma.span(), input.contact_of_row);
     if (errors.largest() <= refined) break;
     if (round == most_refinements) return false;
-    for (std::int32_t c = 0; c < count; ++c) counts.refinements += refine(c, measure, round > 0, result);
+    for (std::int32_t c = 0; c < count; ++c) {
+      if (!refine(c, measure, round > 0, result)) continue;
+      ++counts.refinements;
+      stop(c, measure, result);
+    }
   }
   for (std::int32_t c = 0; c < count; ++c) mark_redundant(c, measure, result);
   return true;
@@ -107,6 +113,16 @@ bool DenseStage::refine(std::int32_t c, const Measure& measure, bool rows_alone,
   for (std::int32_t p = 0; p < s.n; ++p) result.v[s.velocity(p)] += s.x[p];
   for (std::int32_t t = 0; t < *s.members; ++t) result.gamma[s.row[s.member[t]]] += s.x_rows()[t];
   return true;
+}
+
+/// As Refinement::stop: a velocity far below the rounding of its momentum is 0. A row without other terms is off by its whole size, however small steps make
+/// that, and each of them moves the velocities of all rows a little.
+void DenseStage::stop(std::int32_t c, const Measure& measure, Result& result) {
+  const DenseIsland& s = response_.island(c);
+  for (std::int32_t p = 0; p < s.n; ++p) {
+    const std::int32_t j = s.velocity(p);
+    if (std::abs(measure.mass(j) * result.v[j]) <= lost * measure.momentum_scale(j)) result.v[j] = 0;
+  }
 }
 
 /// As mark_redundant: rows that hold, rest, and have a Schur pivot of at most dependent_pivot · a.

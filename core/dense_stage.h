@@ -26,6 +26,7 @@ class DenseStage {
  private:
   bool solve_island(const SolveInput& input, const Mask* start, std::int32_t c, Result& result);
   bool refine(std::int32_t c, const Measure& measure, bool rows_alone, Result& result);
+  void stop(std::int32_t c, const Measure& measure, Result& result);
   void mark_redundant(std::int32_t c, const Measure& measure, Result& result);
 
   double density(const Problem& problem, std::int32_t c) const;

@@ -41,6 +41,9 @@ class Measure {
   double velocity_error(std::int32_t j) const;
   /// (M v − Jᵀγ − k)ⱼ of the last run.
   double momentum_residual(std::int32_t j) const { return sum_[j]; }
+  /// The terms of that, by magnitude; Mⱼⱼ.
+  double momentum_scale(std::int32_t j) const { return size_[j]; }
+  double mass(std::int32_t j) const { return diagonal_[j]; }
 
  private:
   /// after: diagonal_ is Mⱼⱼ, for rows(), where it becomes 0 on prescribed bodies.
