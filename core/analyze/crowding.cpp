@@ -11,7 +11,7 @@ namespace {
 /// Below so many rows the dense triangle of the rows costs nothing, and every method runs in one order.
 constexpr std::int32_t fewest_rows = 20;
 
-bool too_many(std::int64_t rows, std::int64_t velocities) { return velocities > 0 && rows >= fewest_rows && 5 * rows > 6 * velocities; }
+bool too_many(std::int64_t rows, std::int64_t velocities) { return velocities > 0 && rows >= fewest_rows && 2 * rows > 3 * velocities; }
 
 }  // namespace
 

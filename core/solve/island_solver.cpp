@@ -12,8 +12,6 @@ namespace {
 constexpr std::int32_t few_rows = 2;
 /// Of crowded islands of so many rows a change takes hundreds of pivots, where the steps of interior points are as few as ever.
 constexpr std::int32_t many_rows = 300;
-/// Where pivots touch so few rows, those that Newton has left to do are fewer than the steps of its descent.
-constexpr std::int32_t few_to_pivot = 1000;
 /// A guess by Gauss-Seidel pays where a row's response is about as short as the row: bodies, not robots.
 constexpr std::int64_t short_response = 24;
 
@@ -62,8 +60,9 @@ class Run {
       return;
     }
     if (method == MLCP_METHOD_PGS && sweep()) return;
-    if (pivots_are_cheap() && (newton(warm, false) || pivots_end(trace))) return;
-    if (newton(warm, true)) return;
+    const bool pivots_open = method == MLCP_METHOD_AUTO && !input_.follows_shifts() && !island_.crowded;
+    if (newton(warm, pivots_open)) return;
+    if (left_to_pivots_ && (pivots_end(trace) || newton(warm, false))) return;
     give_up();
     if (island_.crowded) return;
     limits_.restart(end_.counts);
@@ -136,14 +135,15 @@ class Run {
   }
 
   /// false: it gave up.
-  bool newton(bool warm, bool to_the_end) {
+  bool newton(bool warm, bool pivots_open) {
     if (!warm && guessable()) {
       GaussSeidel sweeps(basis_, limits_, end_.counts);
       if (sweeps.prepare(island_)) sweeps.guess(island_);
     }
     Newton newton(basis_, limits_, end_.counts);
     end_.method = MLCP_METHOD_NEWTON;
-    end_.outcome = newton.solve(island_, warm, to_the_end);
+    end_.outcome = newton.solve(island_, warm, pivots_open);
+    left_to_pivots_ = newton.left_to_pivots();
     end_.epsilon = newton.epsilon();
     end_.semidefinite = newton.semidefinite();
     if (end_.outcome == MLCP_NOT_POSITIVE_DEFINITE) end_.indefinite = basis_.factor.failed_position(island_);
@@ -159,8 +159,6 @@ class Run {
     end_.kept = end_.outcome == MLCP_SOLVED && end_.epsilon <= sharp_epsilon;
     return end_.outcome != MLCP_ITERATION_LIMIT;
   }
-
-  bool pivots_are_cheap() const { return input_.settings.method == MLCP_METHOD_AUTO && !input_.follows_shifts() && !island_.crowded && rows_ <= few_to_pivot; }
 
   bool guessable() const {
     const MassParts& parts = basis_.response.parts();
@@ -190,6 +188,7 @@ class Run {
   IslandEnd& end_;
   const std::int32_t rows_;
   Limits limits_;
+  bool left_to_pivots_ = false;
 };
 
 }  // namespace

@@ -13,6 +13,8 @@ namespace {
 constexpr int patience = 10;
 /// Where rows depend on each other and the start is only a guess: the interior points are next.
 constexpr int patience_with_guesses = 3;
+/// Where pivots touch so few rows, those that full steps have left to do are fewer than the steps of interior points.
+constexpr std::int32_t few_to_pivot = 1000;
 /// Refined points as good as this are judged row by row; worse ones stand on a factor that cannot be trusted.
 constexpr double refined = 1e-13;
 constexpr double first_epsilon = 1e-2, reduction = 0.3;
@@ -74,7 +76,7 @@ Newton::Ending Newton::finish(const Island& island, bool from_x) {
   const std::size_t few = 8 + (island.last_row - island.first_row) / 50;
   const double enough = from_x ? std::max(refined, basis_.contradiction) : refined;
   for (int round = 0; round < most_rounds; ++round) {
-    const double error = basis_.refine(island, counts_, from_x);
+    const double error = finished_ = basis_.refine(island, counts_, from_x);
     flips_ = proximal_.flips_of_point(island);
     if (flips_.empty()) return error <= enough && empty_rows_hold(island) ? Ending::settled : Ending::stuck;
     if (proximal_.epsilon() == 0 || !(error <= refined) || flips_.size() > few) break;
@@ -126,11 +128,14 @@ Newton::Ending Newton::sharp(const Island& island, int rounds) {
 }
 
 Newton::Ending Newton::sharp_rounds(const Island& island, int rounds) {
+  double before = infinity;
   for (int round = 0; round < rounds; ++round) {
     const Ending ending = full_steps(island, 0);
     if (ending != Ending::settled) return ending;
     proximal_.center_here(island);
     if (finish(island) == Ending::settled) return Ending::settled;
+    if (flips_.empty() && !(finished_ <= 0.5 * before)) return Ending::stuck;  // the rows contradict each other by that much
+    before = finished_;
     // The share of least norm may be beyond the bounds of some rows, where that of the centre is not. Only where there is a solution: the impulses of
     // an infeasible problem grow from centre to centre until its contradiction is small beside them.
     if (!feasible_) continue;
@@ -189,7 +194,7 @@ Newton::Ending Newton::interior(const Island& island) {
   return sharp(island, 2);
 }
 
-mlcp_outcome Newton::solve(const Island& island, bool warm, bool to_the_end) {
+mlcp_outcome Newton::solve(const Island& island, bool warm, bool pivots_open) {
   warm_ = warm;
   keep(island);
   proximal_.enter(island);
@@ -197,7 +202,10 @@ mlcp_outcome Newton::solve(const Island& island, bool warm, bool to_the_end) {
   delta_ = 0;
   feasible_ = false;
   Ending ending = island.crowded ? Ending::dependent : exact(island);
-  for (int attempt = 0; attempt < (to_the_end ? 3 : 1) && ending != Ending::settled && ending != Ending::stopped; ++attempt) {
+  left_to_pivots_ = false;
+  for (int attempt = 0; attempt < 3 && ending != Ending::settled && ending != Ending::stopped; ++attempt) {
+    left_to_pivots_ = pivots_open && attempt == 1 && (island.last_row - island.first_row <= few_to_pivot || (ending == Ending::stuck && flips_.empty()));
+    if (left_to_pivots_) break;
     go_back(island);
     ending = attempt == 0 ? sharp(island, 4) : attempt == 1 ? interior(island) : descent(island);
   }

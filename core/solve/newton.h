@@ -22,8 +22,11 @@ class Newton {
 
   /// before: states, and impulses where they are known (x of the rows).
   /// SOLVED: the basis holds the answer. ITERATION_LIMIT: it gave up, and the active set is the best start that it knows.
-  /// warm: the start solved a problem nearby. to_the_end: whether interior points and descent are tried where full steps get stuck.
-  mlcp_outcome solve(const Island& island, bool warm, bool to_the_end);
+  /// warm: the start solved a problem nearby. pivots_open: whether it may leave to pivots what full steps have left undone.
+  mlcp_outcome solve(const Island& island, bool warm, bool pivots_open);
+  /// After ITERATION_LIMIT: pivots will be fewer than the steps of the other ways, which were not tried: few rows, or an active set of which some rows depend on others
+  /// and contradict them by more than a rounding.
+  bool left_to_pivots() const { return left_to_pivots_; }
   /// Goes on from an answer that the factor with this ε belongs to, after numbers of rows have changed: `flips` first, then full steps.
   /// SOLVED: the basis holds the answer. ITERATION_LIMIT: it takes more than that.
   mlcp_outcome resume(const Island& island, std::span<const Flip> flips, double epsilon);
@@ -57,7 +60,8 @@ class Newton {
   Proximal proximal_;
   double delta_ = 0;
   bool feasible_ = false;  // interior points have shown it
-  bool warm_ = false;
+  bool warm_ = false, left_to_pivots_ = false;
+  double finished_ = 0;          // error of the last finish
   std::span<const Flip> flips_;  // of the last finish
   mlcp_outcome stopped_ = MLCP_SOLVED;
 };
