@@ -61,6 +61,8 @@ class Basis {
 
   /// Slacks up to this, relative to the scale of their error, count as zero while solving.
   double zero() const { return zero_slack(*settings_); }
+  /// Errors up to this leave room for what is added to them in the end.
+  double forgiven() const { return 0.1 * settings_->tolerance; }
 
   /// The invariant of an island, for assertions.
   bool check(const Island& island) const;
