@@ -103,7 +103,7 @@ TEST(RatioTest, BilateralRowNeverBlocks) {
 TEST(RatioTest, DependentRowMayGoOnForEver) {
   Rows r({unilateral, unilateral});
   r.place(0, Set::at_lower, 0, -3);
-  r.move(0, 1, 0);
+  r.move(0, 1, 1e-16);  // rounding
   r.direction.dependent = true;
   r.place(1, Set::active, 2, 0);
   r.move(1, 1, 0);
