@@ -24,7 +24,7 @@ def test_many_solvers_on_one_problem_get_the_same_bits():
 
 def test_the_gil_is_released_in_a_solve():
     """Python code runs on while a solve is under way, many times between its beginning and its end."""
-    problem, running, ticks = pile(6000), threading.Event(), 0
+    problem, running, ticks = pile(20000), threading.Event(), 0
     solver = mlcp.Solver(method="simplex")
     thread = threading.Thread(target=lambda: (running.set(), solver.solve(problem)))
     thread.start()
@@ -115,7 +115,7 @@ def test_solve_many_refuses_what_does_not_fit():
 
 
 def test_solve_many_stops_the_others_when_one_fails():
-    long = pile(6000)
+    long = pile(20000)
     begin = time.perf_counter()
     with pytest.raises(mlcp.RangeError):
         mlcp.solve_many([long, ball_and_joint()], [None, mlcp.Mask(1)], workers=2, method="simplex")
