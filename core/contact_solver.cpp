@@ -113,7 +113,6 @@ ContactSolver::~ContactSolver() {
   memory.release(state_, sizeof(State));
 }
 
-const Memory& ContactSolver::memory() const { return state_->memory; }
 const Settings& ContactSolver::settings() const { return state_->settings; }
 const Result& ContactSolver::result() const { return *state_->last; }
 const Array<mlcp_contact_state>& ContactSolver::contact_states() const { return state_->contact_state; }

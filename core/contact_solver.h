@@ -12,7 +12,6 @@ class ContactSolver {
   ContactSolver(const ContactSolver&) = delete;
   ContactSolver& operator=(const ContactSolver&) = delete;
 
-  const Memory& memory() const;
   const Settings& settings() const;
   void set_settings(const Settings& settings);  ///< fails: Error, nothing changed
   void trim();

@@ -90,7 +90,6 @@ Solver::~Solver() {
   memory.release(state_, sizeof(State));
 }
 
-const Memory& Solver::memory() const { return state_->memory; }
 const Settings& Solver::settings() const { return state_->settings; }
 const Result& Solver::result() const { return state_->result; }
 

@@ -18,7 +18,6 @@ class Solver {
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
 
-  const Memory& memory() const;
   const Settings& settings() const;
   void set_settings(const Settings& settings);  ///< fails: Error, nothing changed
   void trim();

@@ -1,6 +1,9 @@
 #include "factorize/dense_response.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "factorize/dot.h"
 
 namespace mlcp {
 namespace {
@@ -237,6 +240,13 @@ void DenseResponse::solve_active(DenseIsland& s) {
   }
   solve_members(s, x);
   for (std::int32_t t = 0; t < *s.members; ++t) s.gamma[s.member[t]] = x[t];
+}
+
+double DenseResponse::slack(const DenseIsland& s, std::int32_t i, double& terms) {
+  double pushed, pushes;
+  dot_and_size(s.row_of_a(i), s.gamma, s.m, pushed, pushes);
+  terms = s.size[i] + std::abs(s.b[i]) + pushes;
+  return s.b[i] + pushed;
 }
 
 double DenseResponse::schur(const DenseIsland& s, std::int32_t i) {

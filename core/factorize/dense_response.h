@@ -62,6 +62,8 @@ class DenseResponse {
   static void factor_active(DenseIsland& island, double drop);
   /// γ of the members, 0 before: w = 0 there with the impulses of the rows that rest.
   static void solve_active(DenseIsland& island);
+  /// wᵢ of the impulses; terms: their magnitude.
+  static double slack(const DenseIsland& island, std::int32_t i, double& terms);
   /// v of the impulses, into x.
   static void velocities(const DenseIsland& island);
   /// Aᵢᵢ less what the members take from it, for a row that is none.

@@ -57,9 +57,8 @@ std::int32_t DenseNewton::flip() {
   // slacks first: they are those of the impulses as they are
   for (std::int32_t i = 0; i < s_.m; ++i) {
     if (s_.state[i] == ActiveSet::active) continue;
-    double pushed, pushes;
-    dot_and_size(s_.row_of_a(i), s_.gamma, s_.m, pushed, pushes);
-    const double w = s_.b[i] + pushed, size = s_.size[i] + std::abs(s_.b[i]) + pushes;
+    double size;
+    const double w = DenseResponse::slack(s_, i, size);
     // what no impulse can change is for the measurement to judge
     const double zero = s_.lo[i] == s_.hi[i] || s_.response(i, i) == 0 ? infinity : zero_ * size;
     const bool wrong = s_.state[i] == ActiveSet::at_lower ? w < -zero : s_.state[i] == ActiveSet::at_upper ? w > zero : std::abs(w) > zero;

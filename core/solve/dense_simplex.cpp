@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "factorize/dot.h"
-
 namespace mlcp {
 namespace {
 
@@ -74,10 +72,8 @@ bool DenseSimplex::drop_beyond_bounds() {
 
 void DenseSimplex::find_slacks() {
   for (std::int32_t i = 0; i < s_.m; ++i) {
-    double pushed, pushes;
-    dot_and_size(s_.row_of_a(i), s_.gamma, s_.m, pushed, pushes);
-    s_.w[i] = is_in(i) ? 0 : s_.b[i] + pushed;
-    s_.scale[i] = s_.size[i] + std::abs(s_.b[i]) + pushes;
+    const double w = DenseResponse::slack(s_, i, s_.scale[i]);
+    s_.w[i] = is_in(i) ? 0 : w;
   }
   counts_.work += static_cast<std::int64_t>(s_.m) * s_.m;
 }

@@ -77,7 +77,7 @@ class Run {
     end_.crowded = island_.crowded;
   }
 
-  /// From where full steps got to. false: no answer; the start is once more rows at rest.
+  /// From where full steps got to. false: no answer, or a proof that there is none; an error within the tolerance would be one, which the other ways may find.
   bool pivots_end(Array<mlcp_pivot>* trace) {
     limits_.restart(end_.counts);
     pivot(trace);

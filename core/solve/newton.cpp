@@ -195,21 +195,17 @@ Newton::Ending Newton::interior(const Island& island) {
   return sharp(island, 2);
 }
 
-mlcp_outcome Newton::solve(const Island& island, bool warm, bool pivots_open) {
+void Newton::begin(const Island& island, bool warm) {
   warm_ = warm;
   keep(island);
   proximal_.enter(island);
   proximal_.center_here(island);
   delta_ = 0;
   feasible_ = false;
-  Ending ending = island.crowded ? Ending::dependent : exact(island);
-  left_to_pivots_ = false;
-  for (int attempt = 0; attempt < 3 && ending != Ending::settled && ending != Ending::stopped; ++attempt) {
-    left_to_pivots_ = pivots_open && attempt == 1 && (island.last_row - island.first_row <= few_to_pivot || (ending == Ending::stuck && flips_.empty()));
-    if (left_to_pivots_) break;
-    go_back(island);
-    ending = attempt == 0 ? sharp(island, 4) : attempt == 1 ? interior(island) : descent(island);
-  }
+}
+
+/// Without an answer, the best active set there is, and K without ε.
+mlcp_outcome Newton::conclude(const Island& island, Ending ending) {
   if (ending != Ending::settled) {
     basis_.values.regularise(*basis_.pattern, island, 0, 0);
     go_back(island);
@@ -220,6 +216,19 @@ mlcp_outcome Newton::solve(const Island& island, bool warm, bool pivots_open) {
     case Ending::indefinite: return MLCP_NOT_POSITIVE_DEFINITE;
     default: return MLCP_ITERATION_LIMIT;
   }
+}
+
+mlcp_outcome Newton::solve(const Island& island, bool warm, bool pivots_open) {
+  begin(island, warm);
+  Ending ending = island.crowded ? Ending::dependent : exact(island);
+  left_to_pivots_ = false;
+  for (int attempt = 0; attempt < 3 && ending != Ending::settled && ending != Ending::stopped; ++attempt) {
+    left_to_pivots_ = pivots_open && attempt == 1 && (island.last_row - island.first_row <= few_to_pivot || (ending == Ending::stuck && flips_.empty()));
+    if (left_to_pivots_) break;
+    go_back(island);
+    ending = attempt == 0 ? sharp(island, 4) : attempt == 1 ? interior(island) : descent(island);
+  }
+  return conclude(island, ending);
 }
 
 mlcp_outcome Newton::resume(const Island& island, std::span<const Flip> flips, double epsilon) {
@@ -237,17 +246,9 @@ mlcp_outcome Newton::resume(const Island& island, std::span<const Flip> flips, d
 }
 
 mlcp_outcome Newton::solve_by_interior_points(const Island& island) {
-  warm_ = true;
-  keep(island);
-  proximal_.enter(island);
-  proximal_.center_here(island);
-  delta_ = 0;
-  feasible_ = false;
+  begin(island, true);
   const Ending ending = interior(island);
-  if (ending == Ending::settled) return MLCP_SOLVED;
-  basis_.values.regularise(*basis_.pattern, island, 0, 0);
-  go_back(island);
-  return ending == Ending::stopped ? stopped_ : MLCP_ITERATION_LIMIT;
+  return conclude(island, ending == Ending::indefinite ? Ending::stuck : ending);
 }
 
 /// The proximal point around 0, refined against K: every correction is (A + εD)⁻¹A z, which lies in D⁻¹ range(A) as the least norm does, so

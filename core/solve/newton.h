@@ -40,6 +40,8 @@ class Newton {
 
  private:
   enum class Ending { settled, stuck, dependent, stopped, indefinite };
+  void begin(const Island& island, bool warm);
+  mlcp_outcome conclude(const Island& island, Ending ending);
   Ending exact(const Island& island);
   Ending exact_rounds(const Island& island);
   Ending sharp(const Island& island, int rounds);

@@ -47,17 +47,17 @@ def solve_many(problems: Iterable[Problem], starts: Sequence[Mask | None] | None
     Exception
         The first one of a solve; the others that are running are interrupted. Ctrl-C does the same.
     """
-    todo = list(problems)
+    batch = list(problems)
     for name, masks in (("starts", starts), ("enabled", enabled)):
-        if masks is not None and len(masks) != len(todo):
-            raise ValueError(f"{name} has {len(masks)} entries for {len(todo)} problems")
+        if masks is not None and len(masks) != len(batch):
+            raise ValueError(f"{name} has {len(masks)} entries for {len(batch)} problems")
     if workers is None:
         workers = cores()
     if workers < 1:
         raise ValueError(f"workers = {workers} is not positive")
-    results: list[Result | None] = [None] * len(todo)
+    results: list[Result | None] = [None] * len(batch)
     running: set[Solver] = set()
-    left = iter(range(len(todo)))  # threads draw from it one at a time, which the GIL makes safe
+    left = iter(range(len(batch)))  # threads draw from it one at a time, which the GIL makes safe
     stopped = False
 
     def work() -> None:
@@ -66,14 +66,14 @@ def solve_many(problems: Iterable[Problem], starts: Sequence[Mask | None] | None
             running.add(solver)
             if stopped:
                 return
-            results[i] = solver.solve(todo[i], starts[i] if starts else None, enabled=enabled[i] if enabled else None)
+            results[i] = solver.solve(batch[i], starts[i] if starts else None, enabled=enabled[i] if enabled else None)
             running.discard(solver)
             with shown.get_lock():
                 shown.update()
 
-    with tqdm(total=len(todo), disable=None if bar is None else not bar, unit="solve") as shown, \
-            ThreadPoolExecutor(min(workers, max(1, len(todo)))) as pool:
-        futures = [pool.submit(work) for _ in range(min(workers, len(todo)))]
+    with tqdm(total=len(batch), disable=None if bar is None else not bar, unit="solve") as shown, \
+            ThreadPoolExecutor(min(workers, max(1, len(batch)))) as pool:
+        futures = [pool.submit(work) for _ in range(min(workers, len(batch)))]
         try:
             for future in wait(futures, return_when=FIRST_EXCEPTION).done:
                 future.result()
