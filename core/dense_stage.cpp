@@ -1,5 +1,6 @@
 #include "dense_stage.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace mlcp {
@@ -111,7 +112,11 @@ bool DenseStage::refine(std::int32_t c, const Measure& measure, bool rows_alone,
   for (std::int32_t t = 0; t < *s.members; ++t) s.x_rows()[t] = -measure.w[s.row[s.member[t]]];
   DenseResponse::correct(s);
   for (std::int32_t p = 0; p < s.n; ++p) result.v[s.velocity(p)] += s.x[p];
-  for (std::int32_t t = 0; t < *s.members; ++t) result.gamma[s.row[s.member[t]]] += s.x_rows()[t];
+  for (std::int32_t t = 0; t < *s.members; ++t) {
+    const std::int32_t i = s.member[t];
+    double& gamma = result.gamma[s.row[i]];
+    gamma = std::clamp(gamma + s.x_rows()[t], s.lo[i], s.hi[i]);  // what is within rounding of a bound does not leave it
+  }
   return true;
 }
 

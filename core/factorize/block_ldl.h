@@ -14,30 +14,6 @@ struct BlockLdl {
   static std::int32_t blocks_of(std::int32_t rows) { return (rows + 3) / 4; }
   static std::int64_t reals(std::int64_t blocks) { return 8 * blocks * (blocks + 1); }
   double* block(std::int32_t b) const { return lower + reals(b); }
-
-  /// x := L⁻¹ x
-  void forward(std::int32_t blocks, double* x) const {
-    for (std::int32_t b = 0; b < blocks; ++b) {
-      const double* l = block(b) + 16 * std::int64_t{first[b]};
-      double* const own = x + 4 * std::int64_t{b};
-      double s[4] = {own[0], own[1], own[2], own[3]};
-      for (std::int32_t q = 4 * first[b]; q < 4 * b; ++q, l += 4)
-        for (int r = 0; r < 4; ++r) s[r] -= l[r] * x[q];
-      for (int q = 0; q < 4; ++q, l += 4) {
-        own[q] = s[q];
-        for (int r = q + 1; r < 4; ++r) s[r] -= l[r] * s[q];
-      }
-    }
-  }
-
-  /// x := L⁻ᵀ x
-  void backward(std::int32_t blocks, double* x) const {
-    for (std::int32_t b = blocks; b-- > 0;) {
-      const double* own = x + 4 * std::int64_t{b};
-      const auto above = [&](const double* l) { return (l[0] * own[0] + l[1] * own[1]) + (l[2] * own[2] + l[3] * own[3]); };
-      for (std::int32_t q = 4 * b + 3; q-- > 4 * first[b];) x[q] -= above(block(b) + 4 * std::int64_t{q});
-    }
-  }
 };
 
 }  // namespace mlcp

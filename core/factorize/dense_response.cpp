@@ -139,7 +139,7 @@ bool DenseResponse::load_mass(const Problem& problem, DenseIsland& s, std::span<
   constexpr double positive[4] = {};
   for (std::int32_t b = 0; b < s.blocks; ++b)
     if (kernels_->block_eliminate(s.mass, b, positive) < 4) return false;
-  s.mass.forward(s.blocks, s.k);
+  s.kernels->block_forward(s.mass, s.blocks, s.k);
   return true;
 }
 
@@ -175,16 +175,11 @@ void DenseResponse::respond(DenseIsland& s, std::int32_t c) {
   for (std::int32_t i = 4 * c; i < std::min(4 * c + 4, s.m); ++i) s.b[i] += sum[i - 4 * c];
   for (std::int32_t d = 0; d <= c; ++d) {
     const std::int32_t from = std::max(begin, s.begin[d]), to = std::min(end, s.end[d]);
-    double tile[16] = {};
-    if (from < to) kernels_->panel_product(4 * (to - from), s.scaled + 16 * from, s.panel(d) + 16 * from, tile);
-    if (d < c) {
-      for (std::int32_t r = 0; r < 4; ++r)
-        for (std::int32_t k = 0; k < 4; ++k) s.row_of_a(4 * c + r)[4 * d + k] = s.row_of_a(4 * d + k)[4 * c + r] = tile[4 * r + k];
-    } else {
-      for (std::int32_t r = 0; r < 4; ++r)
-        for (std::int32_t k = 0; k <= r; ++k) s.row_of_a(4 * c + r)[4 * c + k] = s.row_of_a(4 * c + k)[4 * c + r] = tile[4 * r + k];
-    }
+    double *const tile = s.row_of_a(4 * c) + 4 * d, *const mirror = s.row_of_a(4 * d) + 4 * c;
+    kernels_->panel_product(std::max(0, 4 * (to - from)), s.scaled + 16 * from, s.panel(d) + 16 * from, 4 * s.panels, tile, mirror);
   }
+  for (std::int32_t i = 4 * c; i < 4 * c + 4; ++i)  // exactly symmetric: as what is below the diagonal
+    for (std::int32_t k = 4 * c; k < i; ++k) s.row_of_a(k)[i] = s.response(i, k);
 }
 
 /// Loads block b of A on the members, with rows of the unit matrix behind the last one; what is above the diagonal is of no effect. A is symmetric:
@@ -225,9 +220,9 @@ void DenseResponse::factor_active(DenseIsland& s, double drop) {
 /// x := A⁻¹ x on the members, before: 0 behind them.
 void DenseResponse::solve_members(const DenseIsland& s, double* x) {
   const std::int32_t blocks = BlockLdl::blocks_of(*s.members);
-  s.active.forward(blocks, x);
+  s.kernels->block_forward(s.active, blocks, x);
   for (std::int32_t t = 0; t < 4 * blocks; ++t) x[t] *= s.active.inverse[t];
-  s.active.backward(blocks, x);
+  s.kernels->block_backward(s.active, blocks, x);
 }
 
 void DenseResponse::solve_active(DenseIsland& s) {
@@ -255,7 +250,7 @@ double DenseResponse::schur(const DenseIsland& s, std::int32_t i) {
   const std::int32_t blocks = BlockLdl::blocks_of(*s.members);
   std::fill(x, x + 4 * blocks, 0.0);
   for (std::int32_t t = 0; t < *s.members; ++t) x[t] = s.response(i, s.member[t]);
-  s.active.forward(blocks, x);
+  s.kernels->block_forward(s.active, blocks, x);
   for (std::int32_t t = 0; t < *s.members; ++t) pivot -= x[t] * (x[t] * s.active.inverse[t]);
   return pivot;
 }
@@ -265,20 +260,19 @@ void DenseResponse::velocities(const DenseIsland& s) {
   std::copy(s.k, s.k + 4 * s.blocks, v);
   for (std::int32_t c = 0; c < s.panels; ++c) {
     double g[4] = {};
-    std::copy(s.gamma + 4 * c, s.gamma + std::min(4 * c + 4, s.m), g);
+    for (std::int32_t i = 4 * c; i < std::min(4 * c + 4, s.m); ++i) g[i - 4 * c] = -s.gamma[i];
     if (g[0] == 0 && g[1] == 0 && g[2] == 0 && g[3] == 0) continue;
-    const double* const y = s.panel(c);
-    for (std::int32_t p = 4 * s.begin[c]; p < 4 * s.end[c]; ++p)
-      v[p] += (y[4 * p] * g[0] + y[4 * p + 1] * g[1]) + (y[4 * p + 2] * g[2] + y[4 * p + 3] * g[3]);
+    const std::int64_t begin = s.begin[c];
+    s.kernels->panel_subtract(4 * (s.end[c] - begin), s.panel(c) + 16 * begin, g, v + 4 * begin);
   }
   for (std::int32_t p = 0; p < 4 * s.blocks; ++p) v[p] *= s.mass.inverse[p];
-  s.mass.backward(s.blocks, v);
+  s.kernels->block_backward(s.mass, s.blocks, v);
 }
 
 void DenseResponse::correct(const DenseIsland& s) {
   double *const v = s.x, *const g = s.x_rows();
   std::fill(v + s.n, g, 0.0);
-  s.mass.forward(s.blocks, v);
+  s.kernels->block_forward(s.mass, s.blocks, v);
   const auto entries = [&](std::int32_t t, const auto& visit) {  // of the column of Y that belongs to member t
     const std::int32_t c = s.member[t] / 4;
     const double* const y = s.panel(c) + s.member[t] % 4;
@@ -289,7 +283,7 @@ void DenseResponse::correct(const DenseIsland& s) {
   solve_members(s, g);
   for (std::int32_t t = 0; t < *s.members; ++t) entries(t, [&](std::int32_t p, double y) { v[p] += y * g[t]; });
   for (std::int32_t p = 0; p < s.n; ++p) v[p] *= s.mass.inverse[p];
-  s.mass.backward(s.blocks, v);
+  s.kernels->block_backward(s.mass, s.blocks, v);
 }
 
 }  // namespace mlcp

@@ -42,10 +42,15 @@ struct Kernels {
   /// Replaces block b of the matrix (entries on and below the diagonal) by that of L. before: the blocks above are done.  returns how many of its rows
   /// have pivots above least[0..3] before the first that has not: 4, or the block is spoilt.
   std::int32_t (*block_eliminate)(const BlockLdl&, std::int32_t b, const double* least);
+  /// x := L⁻¹ x; x := L⁻ᵀ x.
+  void (*block_forward)(const BlockLdl&, std::int32_t blocks, double* x);
+  void (*block_backward)(const BlockLdl&, std::int32_t blocks, double* x);
+  /// x[q] −= Σ_r y[4q + r] g[r] over `count` entries q, a multiple of four.
+  void (*panel_subtract)(std::int64_t count, const double* y, const double* g, double* x);
   /// scaled := d⁻¹ y, sum[lane] := Σ_q scaled[4q + lane] k[q], over `count` entries q.
   void (*panel_scale)(std::int64_t count, const double* y, const double* inverse, const double* k, double* scaled, double* sum);
-  /// tile(r, lane) := Σ_q x[4q + r] y[4q + lane] over `count` entries q.
-  void (*panel_product)(std::int64_t count, const double* x, const double* y, double* tile);
+  /// tile[stride · r + lane] := Σ_q x[4q + r] y[4q + lane] over `count` entries q; mirror[stride · lane + r] the same, before that.
+  void (*panel_product)(std::int64_t count, const double* x, const double* y, std::int64_t stride, double* tile, double* mirror);
   /// A principal pivot on p of the symmetric tableau T, as Tableau::sweep: the lower triangle, in rows of `stride` entries, a multiple of four. sign: 1
   /// takes p in, −1 out. column: room for `stride` entries.     cost: size² / 2
   void (*sweep)(std::int64_t size, std::int64_t stride, double* t, std::int64_t p, double sign, double* column);

@@ -17,17 +17,21 @@ inline void store_block(const Lanes (&s)[4], double* to) {
   for (int r = 0; r < 4; ++r) *reinterpret_cast<Lanes*>(to + 4 * r) = s[r];
 }
 
-/// s(r, :) −= Σ_q left(q, r) right(q, :), in order of q.
+/// s(r, :) −= Σ_q left(q, r) right(q, :). count: a multiple of two. Even and odd q are summed apart, or each sum would wait for the one before.
 inline void subtract_product(std::int64_t count, const double* left, const double* right, Lanes (&s)[4]) {
-  Lanes s0 = s[0], s1 = s[1], s2 = s[2], s3 = s[3];
-  for (const double* const end = left + 4 * count; left != end; left += 4, right += 4) {
-    const Lanes x = *reinterpret_cast<const Lanes*>(right);
+  Lanes s0 = s[0], s1 = s[1], s2 = s[2], s3 = s[3], t0{}, t1{}, t2{}, t3{};
+  for (const double* const end = left + 4 * count; left != end; left += 8, right += 8) {
+    const Lanes x = *reinterpret_cast<const Lanes*>(right), y = *reinterpret_cast<const Lanes*>(right + 4);
     s0 -= left[0] * x;
     s1 -= left[1] * x;
     s2 -= left[2] * x;
     s3 -= left[3] * x;
+    t0 += left[4] * y;
+    t1 += left[5] * y;
+    t2 += left[6] * y;
+    t3 += left[7] * y;
   }
-  s[0] = s0, s[1] = s1, s[2] = s2, s[3] = s3;
+  s[0] = s0 - t0, s[1] = s1 - t1, s[2] = s2 - t2, s[3] = s3 - t3;
 }
 
 /// BlockLdl::block and std::max, local to this file.
@@ -80,6 +84,48 @@ std::int32_t block_eliminate(const BlockLdl& f, std::int32_t b, const double* le
   return 4;
 }
 
+/// x −= yᵀ g for four columns y of four entries each.
+inline void subtract_dots(const double* y, const Lanes& g, double* x) {
+  Lanes s[4];
+  load_block(y, s);
+  for (int r = 0; r < 4; ++r) s[r] *= g;
+  const Lanes even{s[0][0], s[1][0], s[2][0], s[3][0]}, odd{s[0][1], s[1][1], s[2][1], s[3][1]};
+  const Lanes next{s[0][2], s[1][2], s[2][2], s[3][2]}, last{s[0][3], s[1][3], s[2][3], s[3][3]};
+  *reinterpret_cast<Lanes*>(x) -= (even + odd) + (next + last);
+}
+
+void panel_subtract(std::int64_t count, const double* y, const double* g, double* x) {
+  const Lanes four = *reinterpret_cast<const Lanes*>(g);
+  for (std::int64_t q = 0; q < count; q += 4) subtract_dots(y + 4 * q, four, x + q);
+}
+
+void block_forward(const BlockLdl& f, std::int32_t blocks, double* x) {
+  for (std::int32_t b = 0; b < blocks; ++b) {
+    const std::int64_t begin = 4 * std::int64_t{f.first[b]}, end = 4 * std::int64_t{b};
+    const double* l = block_of(f, b) + 4 * begin;
+    Lanes s = *reinterpret_cast<const Lanes*>(x + end), t{};
+    for (std::int64_t q = begin; q < end; q += 2, l += 8) {
+      s -= *reinterpret_cast<const Lanes*>(l) * x[q];
+      t += *reinterpret_cast<const Lanes*>(l + 4) * x[q + 1];
+    }
+    s -= t;
+    for (int q = 0; q < 3; ++q) s -= *reinterpret_cast<const Lanes*>(l + 4 * q) * s[q];  // l is 0 on and above the diagonal
+    *reinterpret_cast<Lanes*>(x + end) = s;
+  }
+}
+
+void block_backward(const BlockLdl& f, std::int32_t blocks, double* x) {
+  for (std::int32_t b = blocks; b-- > 0;) {
+    const std::int64_t begin = 4 * std::int64_t{f.first[b]}, end = 4 * std::int64_t{b};
+    const double *l = block_of(f, b), *own = l + 4 * end;
+    double* const y = x + end;
+    y[2] -= own[11] * y[3];
+    y[1] -= own[6] * y[2] + own[7] * y[3];
+    y[0] -= own[1] * y[1] + (own[2] * y[2] + own[3] * y[3]);
+    panel_subtract(end - begin, l + 4 * begin, y, x + begin);
+  }
+}
+
 void panel_scale(std::int64_t count, const double* y, const double* inverse, const double* k, double* scaled, double* sum) {
   Lanes s{};
   for (std::int64_t q = 0; q < count; ++q) {
@@ -90,11 +136,12 @@ void panel_scale(std::int64_t count, const double* y, const double* inverse, con
   *reinterpret_cast<Lanes*>(sum) = s;
 }
 
-void panel_product(std::int64_t count, const double* x, const double* y, double* tile) {
+void panel_product(std::int64_t count, const double* x, const double* y, std::int64_t stride, double* tile, double* mirror) {
   Lanes s[4] = {};
   subtract_product(count, x, y, s);
   for (int r = 0; r < 4; ++r) s[r] = -s[r];
-  store_block(s, tile);
+  for (int r = 0; r < 4; ++r) *reinterpret_cast<Lanes*>(mirror + r * stride) = Lanes{s[0][r], s[1][r], s[2][r], s[3][r]};
+  for (int r = 0; r < 4; ++r) *reinterpret_cast<Lanes*>(tile + r * stride) = s[r];
 }
 
 void sweep(std::int64_t size, std::int64_t stride, double* t, std::int64_t p, double sign, double* column) {

@@ -82,6 +82,7 @@ void Measure::rows(const Problem& problem, const Mask* enabled, std::span<const 
   const std::int32_t n = problem.n(), m = problem.m();
   const SparseView jacobian = problem.jacobian_view(), sigma = problem.compliance_view();
   reach_.assign(n, -1.0);  // |v| + |v₀| where a row has asked for it
+  inverse_.resize(n);      // likewise
   w.assign(m, 0.0);
   scale.assign(m, 0.0);
   a.assign(m, 0.0);
@@ -100,10 +101,11 @@ void Measure::rows(const Problem& problem, const Mask* enabled, std::span<const 
         else if (!(diagonal_[j] > 0))
           diagonal_[j] = 1;
         reach_[j] = std::abs(v[j]) + std::abs(diagonal_[j] > 0 ? problem.momentum[j] / diagonal_[j] : v[j]);
+        inverse_[j] = diagonal_[j] > 0 ? std::min(1 / diagonal_[j], std::numeric_limits<double>::max()) : 0;
       }
       sum += x * v[j];
       size += std::abs(x) * reach_[j];
-      if (diagonal_[j] > 0) square += (x / diagonal_[j]) * x;
+      square += (x * inverse_[j]) * x;
     }
     for (std::int32_t t = sigma.pointers[i]; t < sigma.pointers[i + 1]; ++t) {
       const double term = sigma.values[t] * gamma[sigma.indices[t]];

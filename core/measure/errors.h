@@ -23,7 +23,7 @@ struct Errors {
 /// Workspace and per-row numbers of one measurement.
 class Measure {
  public:
-  explicit Measure(const Memory& m) : w(m), scale(m), a(m), residual(m), error(m), sum_(m), size_(m), diagonal_(m), reach_(m), largest_(m) {}
+  explicit Measure(const Memory& m) : w(m), scale(m), a(m), residual(m), error(m), sum_(m), size_(m), diagonal_(m), reach_(m), inverse_(m), largest_(m) {}
 
   /// contact_of_row: see SolveInput.
   /// after: w, scale, a, error (rows) and velocity_error() are what the maxima were taken over; rows left out by enabled are 0.
@@ -54,7 +54,7 @@ class Measure {
   Array<double> sum_;
   Array<double> size_;
   Array<double> diagonal_;
-  Array<double> reach_;
+  Array<double> reach_, inverse_;
   Array<double> largest_;  // by contact
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "factorize/dot.h"
 #include "solve/basis.h"
@@ -33,18 +34,30 @@ void DenseNewton::start(const Problem& problem, const Mask* mask) {
   }
 }
 
-/// Projected Gauss-Seidel on A.
+/// Projected Gauss-Seidel on A. The slacks follow every impulse by its column of A, which is its row: no sum has to wait for the impulse before.
 void DenseNewton::guess() {
+  double* const w = s_.x_rows();
+  const std::int32_t stride = 4 * s_.panels;
+  const auto push = [&](std::int32_t i, double by) {
+    const double* const a = s_.row_of_a(i);
+    for (std::int32_t j = 0; j < stride; ++j) w[j] += a[j] * by;
+  };
+  std::copy(s_.b, s_.b + s_.m, w);
+  std::fill(w + s_.m, w + stride, 0.0);
+  for (std::int32_t i = 0; i < s_.m; ++i) {
+    if (s_.gamma[i] != 0) push(i, s_.gamma[i]);
+    s_.w[i] = s_.response(i, i) >= std::numeric_limits<double>::min() ? 1 / s_.response(i, i) : 0;
+  }
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
     bool changed = false;
     for (std::int32_t i = 0; i < s_.m; ++i) {
-      if (s_.response(i, i) == 0) continue;
-      const double w = s_.b[i] + dot(s_.row_of_a(i), s_.gamma, s_.m);
-      const double gamma = s_.gamma[i] - w / s_.response(i, i);
+      if (s_.w[i] == 0) continue;
+      const double before = s_.gamma[i], gamma = before - w[i] * s_.w[i];
       const auto to = gamma <= s_.lo[i] ? ActiveSet::at_lower : gamma >= s_.hi[i] ? ActiveSet::at_upper : ActiveSet::active;
       changed |= s_.state[i] != to;
       s_.state[i] = to;
       s_.gamma[i] = std::clamp(gamma, s_.lo[i], s_.hi[i]);
+      if (s_.gamma[i] != before) push(i, s_.gamma[i] - before);
     }
     counts_.work += static_cast<std::int64_t>(s_.m) * s_.m;
     if (!changed) break;

@@ -77,8 +77,13 @@ TEST_F(BlockLdl, SolvesWithItsTriangles) {
     Eigen::VectorXd x(c.size);
     for (double& entry : x) entry = random.uniform();
     Eigen::VectorXd forward = x, backward = x;
-    c.factor().forward(c.blocks, forward.data());
-    c.factor().backward(c.blocks, backward.data());
+    mlcp::portable_kernels.block_forward(c.factor(), c.blocks, forward.data());
+    mlcp::portable_kernels.block_backward(c.factor(), c.blocks, backward.data());
+    Eigen::VectorXd forward_here = x, backward_here = x;
+    mlcp::kernels_for_this_cpu().block_forward(c.factor(), c.blocks, forward_here.data());
+    mlcp::kernels_for_this_cpu().block_backward(c.factor(), c.blocks, backward_here.data());
+    ASSERT_EQ(forward, forward_here);
+    ASSERT_EQ(backward, backward_here);
     ASSERT_LT((c.L() * forward - x).cwiseAbs().maxCoeff(), 1e-13);
     ASSERT_LT((c.L().transpose() * backward - x).cwiseAbs().maxCoeff(), 1e-13);
   });
@@ -106,11 +111,11 @@ TEST_F(BlockLdl, PanelsAreSolvedAndMultipliedWithTheSameBitsOnEveryCpu) {
 
     Eigen::VectorXd k(c.size);
     for (double& entry : k) entry = random.uniform();
-    double sum[4], sum_again[4], tile[16], tile_again[16];
+    double sum[4], sum_again[4], tile[16], tile_again[16], mirror[16], mirror_again[16];
     mlcp::portable_kernels.panel_scale(c.size, solved.data(), c.inverse.data(), k.data(), scaled.data(), sum);
     kernels.panel_scale(c.size, solved.data(), c.inverse.data(), k.data(), scaled_again.data(), sum_again);
-    mlcp::portable_kernels.panel_product(c.size, scaled.data(), solved.data(), tile);
-    kernels.panel_product(c.size, scaled.data(), solved.data(), tile_again);
+    mlcp::portable_kernels.panel_product(c.size, scaled.data(), solved.data(), 4, tile, mirror);
+    kernels.panel_product(c.size, scaled.data(), solved.data(), 4, tile_again, mirror_again);
     const Eigen::VectorXd inverse = Eigen::Map<Eigen::VectorXd>(c.inverse.data(), c.size);
     ASSERT_EQ(scaled, inverse.asDiagonal() * solved);
     for (int r = 0; r < 4; ++r) {
@@ -118,6 +123,8 @@ TEST_F(BlockLdl, PanelsAreSolvedAndMultipliedWithTheSameBitsOnEveryCpu) {
       ASSERT_NEAR(sum[r], scaled.col(r).dot(k), 1e-13);
       for (int lane = 0; lane < 4; ++lane) {
         ASSERT_EQ(tile[4 * r + lane], tile_again[4 * r + lane]);
+        ASSERT_EQ(mirror[4 * lane + r], tile[4 * r + lane]);
+        ASSERT_EQ(mirror_again[4 * lane + r], tile[4 * r + lane]);
         ASSERT_NEAR(tile[4 * r + lane], scaled.col(r).dot(solved.col(lane)), 1e-13);
       }
     }
