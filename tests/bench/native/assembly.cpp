@@ -16,6 +16,19 @@ mlcp_matrix_view view_of(mlcp_status (*get)(const mlcp_problem*, mlcp_matrix_vie
 
 std::int32_t length(const auto& array) { return static_cast<std::int32_t>(array.size()); }
 
+/// The number of every row among those that stay, −1: a tangent of a contact.
+std::vector<std::int32_t> without_tangents(const mlcp_problem* problem) {
+  std::vector<std::int32_t> number(static_cast<std::size_t>(mlcp_problem_row_count(problem)));
+  const std::int32_t contacts = mlcp_problem_contact_count(problem);
+  std::vector<std::int32_t> row(static_cast<std::size_t>(contacts)), dimension = row;
+  check(mlcp_problem_get_contacts(problem, contacts, row.data(), dimension.data(), nullptr, nullptr, nullptr));
+  for (std::int32_t c = 0; c < contacts; ++c) std::fill_n(number.begin() + row[c] + 1, dimension[c] - 1, -1);
+  std::int32_t count = 0;
+  for (std::int32_t& i : number)
+    if (i == 0) i = count++;
+  return number;
+}
+
 }  // namespace
 
 Assembly::Assembly(const mlcp_problem* problem) {
@@ -51,22 +64,41 @@ Assembly::Assembly(const mlcp_problem* problem) {
   k_.resize(static_cast<std::size_t>(n));
   check(mlcp_problem_get_momentum(problem, n, k_.data()));
 
+  const std::vector<std::int32_t> number = without_tangents(problem);
   const mlcp_matrix_view jacobian = view_of(mlcp_problem_jacobian, problem);
-  row_pointers_.assign(jacobian.pointers, jacobian.pointers + m + 1);
-  columns_.assign(jacobian.indices, jacobian.indices + jacobian.entries);
-  jacobian_.assign(jacobian.values, jacobian.values + jacobian.entries);
-  for (auto* array : {&r_, &lo_, &hi_, &compliance_}) array->resize(static_cast<std::size_t>(m));
-  key_.resize(static_cast<std::size_t>(m));
-  check(mlcp_problem_get_rows(problem, m, r_.data(), lo_.data(), hi_.data(), compliance_.data(), key_.data()));
+  std::vector<double> r(static_cast<std::size_t>(m)), lo = r, hi = r, compliance = r;
+  std::vector<std::uint64_t> key(r.size());
+  check(mlcp_problem_get_rows(problem, m, r.data(), lo.data(), hi.data(), compliance.data(), key.data()));
+  for (std::int32_t i = 0; i < m; ++i) {
+    if (number[i] < 0) continue;
+    columns_.insert(columns_.end(), jacobian.indices + jacobian.pointers[i], jacobian.indices + jacobian.pointers[i + 1]);
+    jacobian_.insert(jacobian_.end(), jacobian.values + jacobian.pointers[i], jacobian.values + jacobian.pointers[i + 1]);
+    row_pointers_.push_back(length(columns_));
+    r_.push_back(r[i]);
+    lo_.push_back(lo[i]);
+    hi_.push_back(hi[i]);
+    compliance_.push_back(compliance[i]);
+    key_.push_back(key[i]);
+  }
 
   const mlcp_matrix_view sigma = view_of(mlcp_problem_compliance, problem);
   bool diagonal = true;
-  for (std::int32_t j = 0; j < sigma.columns; ++j)
-    for (std::int32_t e = sigma.pointers[j]; e < sigma.pointers[j + 1]; ++e) diagonal &= sigma.indices[e] == j;
-  if (diagonal) return;
-  sigma_pointers_.assign(sigma.pointers, sigma.pointers + m + 1);
-  sigma_indices_.assign(sigma.indices, sigma.indices + sigma.entries);
-  sigma_.assign(sigma.values, sigma.values + sigma.entries);
+  sigma_pointers_.push_back(0);
+  for (std::int32_t j = 0; j < sigma.columns; ++j) {
+    if (number[j] < 0) continue;
+    for (std::int32_t e = sigma.pointers[j]; e < sigma.pointers[j + 1]; ++e) {
+      const std::int32_t i = sigma.indices[e];
+      if (number[i] < 0) continue;
+      diagonal &= i == j;
+      sigma_indices_.push_back(number[i]);
+      sigma_.push_back(sigma.values[e]);
+    }
+    sigma_pointers_.push_back(length(sigma_indices_));
+  }
+  if (!diagonal) return;
+  sigma_pointers_.clear();
+  sigma_indices_.clear();
+  sigma_.clear();
 }
 
 void Assembly::append(const Assembly& other) {

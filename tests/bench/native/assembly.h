@@ -7,7 +7,8 @@
 
 namespace bench {
 
-/// The numbers of a problem in arrays, as an engine holds them: what the bulk calls of mlcp.h take. No prescribed bodies.
+/// The numbers of a problem in arrays, as an engine holds them: what the bulk calls of mlcp.h take. No prescribed bodies; without friction, that is
+/// without the tangent rows of contacts.
 class Assembly {
  public:
   Assembly() = default;
