@@ -8,6 +8,8 @@ namespace mlcp {
 namespace {
 
 constexpr double rounding = 2.5e-16;
+/// An error up to this is not looked at again: one more step costs as much as the first and gains a few roundings.
+constexpr double done = 1e-15;
 /// A momentum residual up to this cannot be made smaller for certain.
 constexpr double settled = 1e-15;
 constexpr int most_steps = 12;
@@ -31,14 +33,20 @@ Refinement::Error Refinement::measure(const Island& island, const KktPattern& pa
     scale_[p] = size[p] + std::abs(values.diagonal[p] * x[p]);
   }
   for (std::int32_t p = island.first; p < island.last; ++p) {
+    const double own = x[p];
+    long double residual = residual_[p];
+    double scale = scale_[p];
     for (std::int32_t t = pattern.lower_pointers[p]; t < pattern.lower_pointers[p + 1]; ++t) {
       const std::int32_t q = pattern.lower_rows[t];
-      const long double k = values.lower[t];
-      residual_[p] -= k * x[q];
-      residual_[q] -= k * x[p];
-      scale_[p] += std::abs(values.lower[t] * x[q]);
-      scale_[q] += std::abs(values.lower[t] * x[p]);
+      const double k = values.lower[t];
+      residual -= static_cast<long double>(k) * x[q];
+      scale += std::abs(k * x[q]);
+      if (own == 0) continue;
+      residual_[q] -= static_cast<long double>(k) * own;
+      scale_[q] += std::abs(k * own);
     }
+    residual_[p] = residual;
+    scale_[p] = scale;
   }
   work += 2 * (pattern.lower_pointers[island.last] - pattern.lower_pointers[island.first]);
   values.largest_together(island, [&](std::int32_t o) -> double& { return scale_[pattern.row_position[o]]; });
@@ -87,8 +95,9 @@ double Refinement::solve(const Island& island, const KktPattern& pattern, const 
   for (std::int32_t p = island.first; p < island.last && !from_x; ++p)
     if (factor.in(p)) x[p] = 0;
   Error error = look();
+  if (from_x && error.largest() <= done) return error.largest();
   double momentum_before = infinity;
-  for (int step = 0; step <= most_steps; ++step) {
+  for (int step = from_x; step <= most_steps; ++step) {
     of(best_.data()) = of(x);
     const bool rows_alone = step > 0 && (error.momentum <= settled || error.momentum > 0.5 * momentum_before);
     for (std::int32_t p = island.first; p < island.last; ++p)
@@ -103,10 +112,10 @@ double Refinement::solve(const Island& island, const KktPattern& pattern, const 
     }
     if (!rows_alone) momentum_before = step > 0 ? error.momentum : infinity;
     error = now;
-    if (error.largest() <= rounding) return error.largest();
+    if (error.largest() <= done) return error.largest();
   }
-  error = look();
   if (error.off == 0) return error.largest();
+  look();
   of(best_.data()) = of(x);
   stop(island, pattern, values, factor, x);
   const Error now = look();

@@ -73,11 +73,12 @@ Newton::Ending Newton::full_steps(const Island& island, double drop) {
 /// settled: the refined point of the active set solves the problem itself. stuck: it does not, or flips_ tells which rows must change.
 /// from_x: dependent rows keep their share, and may contradict each other by as much as is allowed: in crowded islands, where to tell which of them
 /// gives way takes hundreds of pivots, a tenth of the tolerance.
-Newton::Ending Newton::finish(const Island& island, bool from_x) {
+/// solved: x is the point of the active set already, but for refinement.
+Newton::Ending Newton::finish(const Island& island, bool from_x, bool solved) {
   const std::size_t few = 8 + (island.last_row - island.first_row) / 50;
   const double enough = from_x ? std::max(refined, island.crowded ? basis_.forgiven() : basis_.contradiction) : refined;
   for (int round = 0; round < most_rounds; ++round) {
-    const double error = finished_ = basis_.refine(island, counts_, from_x);
+    const double error = finished_ = basis_.refine(island, counts_, from_x || (round == 0 && solved));
     flips_ = proximal_.flips_of_point(island);
     if (flips_.empty()) return error <= enough && empty_rows_hold(island) ? Ending::settled : Ending::stuck;
     if (proximal_.epsilon() == 0 || !(error <= refined) || flips_.size() > few) break;
@@ -109,7 +110,7 @@ Newton::Ending Newton::exact_rounds(const Island& island) {
   for (int round = 0; round < most_rounds; ++round) {
     const Ending ending = full_steps(island, dependent_pivot);
     if (ending != Ending::settled) return ending;
-    if (finish(island) == Ending::settled) return Ending::settled;
+    if (finish(island, false, true) == Ending::settled) return Ending::settled;
     if (flips_.empty()) return Ending::stuck;
     if (basis_.change(island, flips_, dependent_pivot, counts_) > 0) return Ending::dependent;
   }

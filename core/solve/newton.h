@@ -50,7 +50,7 @@ class Newton {
   Ending interior(const Island& island);
   Ending full_steps(const Island& island, double drop);
   Ending minimise(const Island& island);
-  Ending finish(const Island& island, bool from_x = false);
+  Ending finish(const Island& island, bool from_x = false, bool solved = false);
   bool empty_rows_hold(const Island& island) const;
   void keep(const Island& island);
   void go_back(const Island& island);
