@@ -549,7 +549,9 @@ typedef struct mlcp_settings {
   mlcp_impulses impulses;        /* ANY */
   int32_t canonical;             /* != 0: the answer is computed anew from its active set, so that warm and cold starts and all exact methods give the
                                     same bits where active rows are independent and none is at zero by accident; one more analysis and factorization; 0 */
-  int32_t warm_start;            /* != 0: without a start mask, rows with keys start where the last solve left rows with the same key; 1 */
+  int32_t warm_start;            /* != 0: without a start mask, rows with keys start where the last solve left rows with the same key, and the
+                                  * elimination order of the last analysis is carried over to rows that came and went; 0: bits do not
+                                  * depend on what was solved before; 1 */
   int32_t num_threads;           /* that solve islands, the caller's among them; 0: one a CPU; 1. The bits do not depend on it. */
   mlcp_parallel_for parallel_for; /* the caller's threads instead of ours; NULL: none */
   void *parallel_context;

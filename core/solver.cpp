@@ -111,7 +111,10 @@ bool Solver::State::analyze(const Problem& problem, const Mask* enabled, const P
   check_mask(enabled, problem, "enabled");
   const bool rows_last = settings.method == MLCP_METHOD_SIMPLEX;
   if (imposed.empty() && main.analysis.covers(problem, enabled, rows_last)) return false;
-  main.analysis.run(problem, enabled, rows_last, imposed.span(), poll);
+  if (imposed.empty() && settings.warm_start)
+    main.analysis.run_again(problem, enabled, rows_last, poll);
+  else
+    main.analysis.run(problem, enabled, rows_last, imposed.span(), poll);
   imposed.clear();
   return true;
 }

@@ -54,6 +54,57 @@ void Ordering::compute(const Problem& problem, const Selection& selection, const
   for (std::int32_t e = 0; e < graph_.elements; ++e) place_element(e);
 }
 
+void Ordering::carry(const Problem& problem, const Selection& selection, const Crowding& crowding, const KktPattern& last, const EliminationTree& tree, Poll poll) {
+  const std::int32_t n = problem.n(), m = problem.m(), size = last.size(), known = std::min(n, last.n);
+  const SparseView jacobian = problem.jacobian_view();
+  collect_free(problem, selection);
+  lineage_.build(tree.parent.span());
+
+  // 2p: before position p; 2p + 1: after it; 2 size: at the end
+  key_.assign(m, -1);
+  member_pointers_.assign(2 * size + 2, 0);
+  for (std::int32_t i = 0; i < m; ++i) {
+    if (!selection.row[i]) continue;
+    const bool crowded = crowding.crowded[n + i] != 0;
+    std::int32_t at = -1;
+    for (std::int32_t t = jacobian.pointers[i]; t < jacobian.pointers[i + 1]; ++t) {
+      const std::int32_t j = jacobian.indices[t], p = j < known && selection.velocity[j] ? last.position[j] : -1;
+      if (p < 0) continue;
+      at = at < 0 ? p : crowded ? std::min(at, p) : lineage_.meet(at, p);
+      poll.spend(1);
+    }
+    key_[i] = at < 0 ? 2 * size : 2 * at + !crowded;
+    ++member_pointers_[key_[i] + 1];
+  }
+  for (std::int32_t k = 0; k <= 2 * size; ++k) member_pointers_[k + 1] += member_pointers_[k];
+  members_.resize(member_pointers_[2 * size + 1]);
+  for (std::int32_t i = m - 1; i >= 0; --i)
+    if (key_[i] >= 0) members_[--member_pointers_[key_[i] + 1]] = i;
+
+  order.clear();
+  const auto place = [&](std::int32_t node) {
+    if (placed_[node] || !selection.has(node)) return;
+    placed_[node] = 1;
+    order.push_back(node);
+  };
+  // filled from behind: the rows of key k are now at member_pointers_[k + 1] .. member_pointers_[k + 2]
+  const auto place_rows = [&](std::int32_t k) {
+    const std::int32_t end = k < 2 * size ? member_pointers_[k + 2] : static_cast<std::int32_t>(members_.size());
+    for (std::int32_t t = member_pointers_[k + 1]; t < end; ++t) {
+      const std::int32_t i = members_[t];
+      for (std::int32_t e = jacobian.pointers[i]; e < jacobian.pointers[i + 1] && !crowding.crowded[n + i]; ++e) place(jacobian.indices[e]);
+      place(n + i);
+    }
+  };
+  for (std::int32_t p = 0; p < size; ++p) {
+    place_rows(2 * p);
+    if (last.node[p] < known) place(last.node[p]);
+    place_rows(2 * p + 1);
+  }
+  place_rows(2 * size);
+  for (std::int32_t j = 0; j < n; ++j) place(j);
+}
+
 void Ordering::clear() {
   order.clear();
   free_velocity.clear();

@@ -61,8 +61,12 @@ class Run {
     }
     if (method == MLCP_METHOD_PGS && sweep()) return;
     const bool pivots_open = method == MLCP_METHOD_AUTO && !input_.follows_shifts() && !island_.crowded;
-    if (newton(warm, pivots_open)) return;
-    if (left_to_pivots_ && (pivots_end(trace) || newton(warm, false))) return;
+    if (newton(warm, {.guess = warm && guessable(), .pivots = pivots_open})) return;
+    if (left_.guess) {
+      go_back_to_start();
+      if (newton(false, {.pivots = pivots_open})) return;
+    }
+    if (left_.pivots && (pivots_end(trace) || newton(warm, {}))) return;
     give_up();
     if (island_.crowded) return;
     limits_.restart(end_.counts);
@@ -135,15 +139,15 @@ class Run {
   }
 
   /// false: it gave up.
-  bool newton(bool warm, bool pivots_open) {
+  bool newton(bool warm, Newton::Left open) {
     if (!warm && guessable()) {
       GaussSeidel sweeps(basis_, limits_, end_.counts);
       if (sweeps.prepare(island_)) sweeps.guess(island_);
     }
     Newton newton(basis_, limits_, end_.counts);
     end_.method = MLCP_METHOD_NEWTON;
-    end_.outcome = newton.solve(island_, warm, pivots_open);
-    left_to_pivots_ = newton.left_to_pivots();
+    end_.outcome = newton.solve(island_, warm, open);
+    left_ = newton.left();
     end_.epsilon = newton.epsilon();
     end_.semidefinite = newton.semidefinite();
     if (end_.outcome == MLCP_NOT_POSITIVE_DEFINITE) end_.indefinite = basis_.factor.failed_position(island_);
@@ -164,6 +168,12 @@ class Run {
     const MassParts& parts = basis_.response.parts();
     const std::int64_t entries = parts.response_pointers[island_.last_row] - parts.response_pointers[island_.first_row];
     return rows_ > few_rows && entries > 0 && entries <= short_response * rows_;
+  }
+
+  /// To the impulses that Newton began with; the active set follows from them.
+  void go_back_to_start() {
+    for (std::int32_t o = island_.first_row; o < island_.last_row; ++o)
+      if (basis_.set.state[o] != ActiveSet::disabled) basis_.set.x[basis_.position(o)] = basis_.work.center[basis_.position(o)];
   }
 
   /// Back to rows at rest, but those that may push both ways.
@@ -188,7 +198,7 @@ class Run {
   IslandEnd& end_;
   const std::int32_t rows_;
   Limits limits_;
-  bool left_to_pivots_ = false;
+  Newton::Left left_;
 };
 
 }  // namespace

@@ -219,13 +219,14 @@ mlcp_outcome Newton::conclude(const Island& island, Ending ending) {
   }
 }
 
-mlcp_outcome Newton::solve(const Island& island, bool warm, bool pivots_open) {
+mlcp_outcome Newton::solve(const Island& island, bool warm, Left open) {
   begin(island, warm);
   Ending ending = island.crowded ? Ending::dependent : exact(island);
-  left_to_pivots_ = false;
+  left_ = {};
   for (int attempt = 0; attempt < 3 && ending != Ending::settled && ending != Ending::stopped; ++attempt) {
-    left_to_pivots_ = pivots_open && attempt == 1 && (island.last_row - island.first_row <= few_to_pivot || (ending == Ending::stuck && flips_.empty()));
-    if (left_to_pivots_) break;
+    left_.guess = open.guess && attempt == 0 && ending == Ending::stuck;
+    left_.pivots = open.pivots && attempt == 1 && (island.last_row - island.first_row <= few_to_pivot || (ending == Ending::stuck && flips_.empty()));
+    if (left_.guess || left_.pivots) break;
     go_back(island);
     ending = attempt == 0 ? sharp(island, 4) : attempt == 1 ? interior(island) : descent(island);
   }

@@ -18,15 +18,21 @@ constexpr double sharp_epsilon = 1e-8;
 /// Each ends with ε = 0: iterative refinement against K itself, and a last look whether every row is where it belongs.
 class Newton {
  public:
+  struct Left {
+    /// From the active set of the problem nearby, full steps run in circles; sweeps from its impulses will find a better one.
+    bool guess = false;
+    /// Few rows, or an active set of which some rows depend on others and contradict them by more than a rounding.
+    bool pivots = false;
+  };
+
   Newton(Basis& basis, Limits& limits, Counts& counts) : basis_(basis), limits_(limits), counts_(counts), proximal_(basis, counts) {}
 
   /// before: states, and impulses where they are known (x of the rows).
   /// SOLVED: the basis holds the answer. ITERATION_LIMIT: it gave up, and the active set is the best start that it knows.
-  /// warm: the start solved a problem nearby. pivots_open: whether it may leave to pivots what full steps have left undone.
-  mlcp_outcome solve(const Island& island, bool warm, bool pivots_open);
-  /// After ITERATION_LIMIT: pivots will be fewer than the steps of the other ways, which were not tried: few rows, or an active set of which some rows depend on others
-  /// and contradict them by more than a rounding.
-  bool left_to_pivots() const { return left_to_pivots_; }
+  /// warm: the start solved a problem nearby. open: what it may leave to others.
+  mlcp_outcome solve(const Island& island, bool warm, Left open);
+  /// After ITERATION_LIMIT: who will be done sooner than the ways that were not tried.
+  Left left() const { return left_; }
   /// Goes on from an answer that the factor with this ε belongs to, after numbers of rows have changed: `flips` first, then full steps.
   /// SOLVED: the basis holds the answer. ITERATION_LIMIT: it takes more than that.
   mlcp_outcome resume(const Island& island, std::span<const Flip> flips, double epsilon);
@@ -62,7 +68,8 @@ class Newton {
   Proximal proximal_;
   double delta_ = 0;
   bool feasible_ = false;  // interior points have shown it
-  bool warm_ = false, left_to_pivots_ = false;
+  bool warm_ = false;
+  Left left_;
   double finished_ = 0;          // error of the last finish
   std::span<const Flip> flips_;  // of the last finish
   mlcp_outcome stopped_ = MLCP_SOLVED;
