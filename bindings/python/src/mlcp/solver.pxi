@@ -30,7 +30,8 @@ cdef class Solver:
         Compute the answer anew from its active set, so that warm and cold starts and all exact methods give the same bits where active
         rows are independent and none is at zero by accident.
     warm_start : bool
-        Without a start mask, rows with keys start where the last solve left rows with the same key; True.
+        Without a start mask, rows with keys start where the last solve left rows with the same key, and the elimination order of the last
+        analysis is carried over to rows that came and went; True. False: bits do not depend on what was solved before.
     num_threads : int
         That solve islands, the caller's among them; 0: one a CPU; 1. The bits do not depend on it. A solver with threads of its own
         refuses to work in a process that was forked after it was made.

@@ -88,7 +88,8 @@ pub struct Settings {
     /// Whether the answer is computed anew from its active set, so that warm and cold starts and all exact methods give the same bits where
     /// active rows are independent and none is at zero by accident. Costs an analysis and a factorization; no.
     pub canonical: bool,
-    /// Whether without a start mask rows with keys start where the last solve left rows with the same key; yes.
+    /// Whether without a start mask rows with keys start where the last solve left rows with the same key, and the elimination order of the last
+    /// analysis is carried over to rows that came and went; yes. No: bits do not depend on what was solved before.
     pub warm_start: bool,
     /// Threads that solve islands, the caller's among them; 0: one a CPU; 1. The bits do not depend on it.
     pub num_threads: usize,
