@@ -8,6 +8,7 @@
 
 #include "conflicts.h"
 #include "friction/slip.h"
+#include "memory/lazy.h"
 #include "solve/warm_start.h"
 #include "measure/cones.h"
 
@@ -57,18 +58,24 @@ void accumulate(const mlcp_report& one, mlcp_report& total) {
 using Clock = std::chrono::steady_clock;
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
+/// What only contacts with friction need.
+struct Friction {
+  Generators generators;
+  ConeRows rows;
+  Slip slip;
+  Conflicts conflicts;
+  ConeMeasure cones;
+  explicit Friction(const Memory& m) : generators(m), rows(m), slip(m), conflicts(m), cones(m) {}
+};
+
 }  // namespace
 
 struct ContactSolver::State {
   Memory memory;
   Settings settings;
   Solver solver;
-  Generators generators;
-  ConeRows rows;
-  Slip slip;
-  Conflicts conflicts;
+  Lazy<Friction> friction;
   Measure measure;
-  ConeMeasure cones;
   Mask enabled;              ///< the caller's, without the tangents of contacts that have no friction
   Result result;             ///< where friction was at work, else the solver's own
   const Result* last;
@@ -80,7 +87,7 @@ struct ContactSolver::State {
   Errors errors;             ///< of `result`
 
   State(const Settings& s, const Memory& m)
-      : memory(m), settings(s), solver(s, m), generators(m), rows(m), slip(m), conflicts(m), measure(m), cones(m), enabled(m), result(m),
+      : memory(m), settings(s), solver(s, m), friction(m), measure(m), enabled(m), result(m),
         last(&solver.result()), warm_start(m), v(m), gamma(m), scratch(m), contact_state(m), contact_facets(m) {}
 
   const Mask* enable(const Problem& problem, const Mask* mask);
@@ -146,9 +153,10 @@ void ContactSolver::analyze(const Problem& problem, const Mask* mask) {
   State& s = *state_;
   const Mask* on = s.enable(problem, mask);
   if (!has_friction(problem, on)) return s.solver.analyze(problem, on);
-  s.generators.start(problem, on, s.settings.facets);
-  s.rows.build(problem, on, s.generators);
-  s.solver.analyze(s.rows.inner, &s.rows.enabled);
+  Friction& f = *s.friction;
+  f.generators.start(problem, on, s.settings.facets);
+  f.rows.build(problem, on, f.generators);
+  s.solver.analyze(f.rows.inner, &f.rows.enabled);
 }
 
 void ContactSolver::solve(const Problem& problem, const Mask* enabled, const Mask* start, mlcp_report& report) {
@@ -178,6 +186,7 @@ void ContactSolver::State::solve_with(const Problem& problem, const Mask* mask, 
   const Clock::time_point begin = Clock::now();
   last = &result;
   result.valid = false;
+  auto& [generators, rows, slip, conflicts, cones] = *friction;
   generators.start(problem, mask, settings.facets);
   rows.build(problem, mask, generators);
   slip.start(problem, start, generators, rows);
@@ -279,14 +288,15 @@ void ContactSolver::State::keep(const Problem& problem, const Errors& found) {
   judge_islands(problem);
   result.trace.assign(inner.trace.span());
   for (mlcp_pivot& pivot : result.trace) {
-    pivot.entering = pivot.entering < 0 ? -1 : rows.row_of[pivot.entering];
-    pivot.blocking = pivot.blocking < 0 ? -1 : rows.row_of[pivot.blocking];
+    for (std::int32_t* const row : {&pivot.entering, &pivot.blocking}) *row = *row < 0 ? -1 : friction->rows.row_of[*row];
   }
 }
 
 /// States of the caller's rows, islands and redundancy from those inside. A contact is redundant when it is closed and none of its
 /// generators is in the basis.
 void ContactSolver::State::take_rows(const Problem& problem) {
+  const Generators& generators = friction->generators;
+  const ConeRows& rows = friction->rows;
   const Result& inner = solver.result();
   const std::int32_t m = problem.m();
   result.mask.state.assign(m, MLCP_ROW_DISABLED);
@@ -325,14 +335,14 @@ void ContactSolver::State::judge_islands(const Problem& problem) {
     if (island >= 0 && !(e <= scratch[island])) scratch[island] = e;
   };
   for (std::int32_t i = 0; i < problem.m(); ++i) note(i, measure.error[i]);
-  for (std::size_t c = 0; c < problem.contacts.size(); ++c) note(problem.contacts[c].row, cones.error[c]);
+  for (std::size_t c = 0; c < problem.contacts.size(); ++c) note(problem.contacts[c].row, friction->cones.error[c]);
   const bool solved = errors.largest() <= settings.tolerance;
   for (std::size_t s = 0; s < outcome.size(); ++s) {
     if (outcome[s] == MLCP_INFEASIBLE || (outcome[s] == MLCP_SOLVED && !(scratch[s] <= settings.tolerance))) outcome[s] = MLCP_ITERATION_LIMIT;
     if (outcome[s] == MLCP_ITERATION_LIMIT && solved) outcome[s] = MLCP_SOLVED;
   }
   for (std::int32_t i = 0; i < problem.m(); ++i)
-    if (conflicts.proven()[i] && !solved) outcome[result.row_island[i]] = MLCP_INFEASIBLE;
+    if (friction->conflicts.proven()[i] && !solved) outcome[result.row_island[i]] = MLCP_INFEASIBLE;
 }
 
 /// What each contact does. Without a cone, and closed: it slides when it has no friction or a tangent row is at its bound.
@@ -355,6 +365,7 @@ void ContactSolver::State::classify(const Problem& problem, const Mask* mask, co
 
 /// The states of tangent rows of cones and how their contacts slip, for the next start.
 void ContactSolver::State::keep_slip(const Problem& problem) {
+  const Generators& generators = friction->generators;
   result.mask.slip.assign(problem.m(), 0.0);
   for (const Coupling& coupling : problem.couplings) result.mask.slip[coupling.row] = result.gamma[coupling.normal];
   for (std::int32_t cone = 0; cone < generators.cones(); ++cone) {
@@ -371,10 +382,11 @@ void ContactSolver::State::keep_slip(const Problem& problem) {
     }
     contact_facets[c] = generators.tried[cone];
   }
-  slip.keep(problem, generators, result.mask.slip.span());
+  friction->slip.keep(problem, generators, result.mask.slip.span());
 }
 
 void ContactSolver::State::fill(const Problem& problem, mlcp_report& report) const {
+  const Generators& generators = friction.made()->generators;
   report.momentum_error = errors.momentum;
   report.constraint_error = errors.constraints;
   report.largest_error = errors.largest();
@@ -387,7 +399,7 @@ void ContactSolver::State::fill(const Problem& problem, mlcp_report& report) con
   if (report.outcome != MLCP_NOT_POSITIVE_DEFINITE) report.worst_velocity = errors.worst_velocity;
   const bool solved = errors.largest() <= settings.tolerance;
   if (report.outcome == MLCP_INFEASIBLE || (report.outcome == MLCP_SOLVED && !solved)) report.outcome = MLCP_ITERATION_LIMIT;
-  if (report.outcome == MLCP_ITERATION_LIMIT && conflicts.any() && !solved) report.outcome = MLCP_INFEASIBLE;
+  if (report.outcome == MLCP_ITERATION_LIMIT && friction.made()->conflicts.any() && !solved) report.outcome = MLCP_INFEASIBLE;
   if (report.outcome == MLCP_ITERATION_LIMIT && solved) report.outcome = MLCP_SOLVED;
   report.enabled_rows = report.active_rows = report.redundant_rows = report.islands_failed = 0;
   for (std::int32_t i = 0; i < problem.m(); ++i) {
@@ -405,14 +417,10 @@ void ContactSolver::State::fill(const Problem& problem, mlcp_report& report) con
 void ContactSolver::trim() {
   State& s = *state_;
   s.solver.trim();
+  s.friction.reset();
   // the new one is there before the old one goes: there may be no memory for it
   const auto renew = [&](auto& part) { part = std::remove_reference_t<decltype(part)>(s.memory); };
-  renew(s.generators);
-  renew(s.rows);
-  renew(s.slip);
-  renew(s.conflicts);
   renew(s.measure);
-  renew(s.cones);
   renew(s.enabled);
   for (Array<double>* a : {&s.v, &s.gamma, &s.scratch}) {
     a->clear();

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "dense_stage.h"
+#include "memory/lazy.h"
 #include "measure/errors.h"
 #include "solve/extended_simplex.h"
 #include "stage.h"
@@ -38,9 +39,9 @@ struct Solver::State {
   Memory memory;
   Settings settings;
   DenseStage dense;  ///< tried first where every island is small
-  Stage main;
-  Stage exact;  ///< rows after velocities everywhere: for islands that newton gave up in another order, and for canonical answers
-  ExtendedSimplex extended;  ///< for small islands that double precision cannot solve
+  Lazy<Stage> main;
+  Lazy<Stage> exact;  ///< rows after velocities everywhere: for islands that newton gave up in another order, and for canonical answers
+  Lazy<ExtendedSimplex> extended;  ///< for small islands that double precision cannot solve
   Pool pool;
   Measure measure;
   Result result;
@@ -103,18 +104,21 @@ void Solver::measure_contacts(double contradiction, std::span<const std::int32_t
   state_->contact_of_row = contact_of_row;
 }
 
-const Analysis& Solver::analysis() const { return state_->main.analysis; }
-std::span<const std::int32_t> Solver::ordering() const { return state_->main.analysis.ordering.order.span(); }
+const Analysis& Solver::analysis() const {
+  static const Analysis none{Memory()};
+  return state_->main.made() ? state_->main.made()->analysis : none;
+}
+std::span<const std::int32_t> Solver::ordering() const { return analysis().ordering.order.span(); }
 void Solver::impose_ordering(std::span<const std::int32_t> ordering) { state_->imposed.assign(ordering); }
 
 bool Solver::State::analyze(const Problem& problem, const Mask* enabled, const Poll& poll) {
   check_mask(enabled, problem, "enabled");
   const bool rows_last = settings.method == MLCP_METHOD_SIMPLEX;
-  if (imposed.empty() && main.analysis.covers(problem, enabled, rows_last)) return false;
+  if (imposed.empty() && main->analysis.covers(problem, enabled, rows_last)) return false;
   if (imposed.empty() && settings.warm_start)
-    main.analysis.run_again(problem, enabled, rows_last, poll);
+    main->analysis.run_again(problem, enabled, rows_last, poll);
   else
-    main.analysis.run(problem, enabled, rows_last, imposed.span(), poll);
+    main->analysis.run(problem, enabled, rows_last, imposed.span(), poll);
   imposed.clear();
   return true;
 }
@@ -176,7 +180,7 @@ void Solver::State::collect(const SolveInput& input) {
     if (input.enabled && input.enabled->state[i] == MLCP_ROW_DISABLED) result.mask.state[i] = MLCP_ROW_DISABLED;
   result.gamma.assign(m, 0.0);
   result.mask.impulse.clear();  // of the last solve, perhaps of another problem
-  main.collect(problem, false, result);
+  main->collect(problem, false, result);
 }
 
 /// Crowded islands that newton has given up: from where it got to, by the pivoting method.
@@ -185,7 +189,7 @@ void Solver::State::rescue(const SolveInput& input, Watch& watch, Crew& crew, ml
   given_up.state.assign(problem.m(), MLCP_ROW_DISABLED);
   bool any = false;
   for (std::int32_t i = 0; i < problem.m(); ++i) {
-    if (result.row_island[i] < 0 || !main.ends[result.row_island[i]].crowded) continue;
+    if (result.row_island[i] < 0 || !main->ends[result.row_island[i]].crowded) continue;
     given_up.state[i] = MLCP_ROW_ACTIVE;
     any = true;
   }
@@ -194,25 +198,25 @@ void Solver::State::rescue(const SolveInput& input, Watch& watch, Crew& crew, ml
   pivoting.method = MLCP_METHOD_SIMPLEX;
   const SolveInput part{problem, &given_up, pivoting, input.contradiction, input.contact_of_row};
   try {
-    if (!exact.analysis.covers(problem, &given_up, true)) exact.analysis.run(problem, &given_up, true, {}, watch.poll());
+    if (!exact->analysis.covers(problem, &given_up, true)) exact->analysis.run(problem, &given_up, true, {}, watch.poll());
   } catch (const Stopped&) {
-    for (std::size_t s = 0; s < main.ends.size(); ++s)
-      if (main.ends[s].crowded) result.island_outcome[s] = watch.stopped();
+    for (std::size_t s = 0; s < main->ends.size(); ++s)
+      if (main->ends[s].crowded) result.island_outcome[s] = watch.stopped();
     return;
   }
-  exact.load(part, &result.mask);
-  exact.solve(part, watch, crew, false, result);
-  read_ends(exact, problem, true, report, counts);
-  exact.collect(problem, true, result);
+  exact->load(part, &result.mask);
+  exact->solve(part, watch, crew, false, result);
+  read_ends(*exact, problem, true, report, counts);
+  exact->collect(problem, true, result);
 }
 
 /// The answer from the active set alone: ordered, factored and solved as if nothing had been before. Kept if it is as good as what there is.
 void Solver::State::make_canonical(const SolveInput& input, Watch& watch) {
   result.mask.impulse.clear();
   try {
-    exact.analysis.run(input.problem, input.enabled, true, {}, watch.poll());
-    exact.load(input, &result.mask);
-    if (!exact.settle(watch)) return;
+    exact->analysis.run(input.problem, input.enabled, true, {}, watch.poll());
+    exact->load(input, &result.mask);
+    if (!exact->settle(watch)) return;
   } catch (const Stopped&) {
     return;
   }
@@ -220,7 +224,7 @@ void Solver::State::make_canonical(const SolveInput& input, Watch& watch) {
   given_up.state.assign(result.mask.state.span());
   given_up.impulse.assign(result.gamma.span());
   kept.assign(result.v.span());
-  exact.collect(input.problem, false, result);
+  exact->collect(input.problem, false, result);
   const Errors now = measure.run(input.problem, input.enabled, result.v.span(), result.gamma.span());
   if (now.largest() <= std::max(settings.tolerance, before)) return;
   result.v.assign(kept.span());
@@ -230,9 +234,9 @@ void Solver::State::make_canonical(const SolveInput& input, Watch& watch) {
 
 /// Small islands that ended without an answer, though no limit of the caller's has stopped them: once more, in extended precision.
 void Solver::State::extend(const SolveInput& input, Watch& watch, mlcp_report& report, Counts& counts) {
-  const auto& islands = main.analysis.symbolic.islands;
+  const auto& islands = main->analysis.symbolic.islands;
   for (std::size_t s = 0; s < islands.size(); ++s) {
-    IslandEnd& end = main.ends[s];
+    IslandEnd& end = main->ends[s];
     const std::int32_t rows = islands[s].last_row - islands[s].first_row, index = static_cast<std::int32_t>(s);
     if (result.island_outcome[s] != MLCP_ITERATION_LIMIT || end.method == MLCP_METHOD_PGS || !ExtendedSimplex::takes(islands[s])) continue;
     if (settings.max_iterations > 0 && end.counts.pivots >= settings.max_iterations) continue;
@@ -240,17 +244,17 @@ void Solver::State::extend(const SolveInput& input, Watch& watch, mlcp_report& r
     Limits limits(watch, index, static_cast<std::int32_t>(islands.size()), 4 * (rows + 10));
     end.kept = false;
     ++report.fallbacks;
-    result.island_outcome[s] = extended.solve(input, islands[s], main.basis, limits, spent);
+    result.island_outcome[s] = extended->solve(input, islands[s], main->basis, limits, spent);
     counts += spent;
     if (result.island_outcome[s] != MLCP_SOLVED && result.island_outcome[s] != MLCP_INFEASIBLE) continue;
-    main.collect(input.problem, islands[s], result);
-    take_certificate(main.basis.work, islands[s], index, extended.certificate_rows());
+    main->collect(input.problem, islands[s], result);
+    take_certificate(main->basis.work, islands[s], index, extended->certificate_rows());
     const bool answers = result.island_outcome[s] == MLCP_SOLVED;
     judge(input);
     for (const double roundings : {0x1p2, 0x1p8, 0x1p14, 0x1p20}) {
       if (!answers || result.island_outcome[s] == MLCP_SOLVED) break;
-      extended.still(roundings);
-      main.collect(input.problem, islands[s], result);
+      extended->still(roundings);
+      main->collect(input.problem, islands[s], result);
       judge(input);
     }
   }
@@ -265,8 +269,8 @@ void Solver::State::look_at_result(const SolveInput& input) {
 void Solver::State::judge(const SolveInput& input) {
   const Problem& problem = input.problem;
   look_at_result(input);
-  const KktPattern& pattern = main.analysis.pattern;
-  const auto& islands = main.analysis.symbolic.islands;
+  const KktPattern& pattern = main->analysis.pattern;
+  const auto& islands = main->analysis.symbolic.islands;
   for (std::size_t s = 0; s < islands.size(); ++s) {
     double worst = 0;
     for (std::int32_t p = islands[s].first; p < islands[s].last; ++p) {
@@ -350,8 +354,8 @@ bool Solver::State::solve_small(const SolveInput& input, const Mask* start, Watc
 }
 
 void Solver::State::find_row_islands(const SolveInput& input) {
-  const auto& islands = main.analysis.symbolic.islands;
-  const KktPattern& pattern = main.analysis.pattern;
+  const auto& islands = main->analysis.symbolic.islands;
+  const KktPattern& pattern = main->analysis.pattern;
   result.row_island.assign(input.problem.m(), -1);
   for (std::size_t s = 0; s < islands.size(); ++s)
     for (std::int32_t o = islands[s].first_row; o < islands[s].last_row; ++o) {
@@ -371,8 +375,8 @@ void Solver::State::solve_large(const SolveInput& input, const Mask* start, Watc
   report.seconds_analyze = report.analyzed ? watch.seconds() - before : 0;
   clear_result(problem);
   find_row_islands(input);
-  main.load(input, start);
-  main.solve(input, watch, crew, start != nullptr, result);
+  main->load(input, start);
+  main->solve(input, watch, crew, start != nullptr, result);
   take_answer(input, watch, crew, report, counts);
   large = true;
 }
@@ -381,20 +385,20 @@ void Solver::State::solve_large_again(const SolveInput& input, const Mask& start
   report.analyzed = false;
   report.seconds_analyze = 0;
   clear_findings();
-  main.solve_again(input, watch, crew, start, result);
+  main->solve_again(input, watch, crew, start, result);
   take_answer(input, watch, crew, report, counts);
 }
 
 /// From the stage to the result, and its errors.
 void Solver::State::take_answer(const SolveInput& input, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts) {
-  result.island_outcome.assign(main.analysis.symbolic.islands.size(), MLCP_SOLVED);
-  read_ends(main, input.problem, false, report, counts);
-  solve_free_velocities(input.problem, main.analysis.ordering.free_velocity);
+  result.island_outcome.assign(main->analysis.symbolic.islands.size(), MLCP_SOLVED);
+  read_ends(*main, input.problem, false, report, counts);
+  solve_free_velocities(input.problem, main->analysis.ordering.free_velocity);
   collect(input);
   rescue(input, watch, crew, report, counts);
   judge(input);
   extend(input, watch, report, counts);
-  report.factor_entries = main.analysis.symbolic.entries();
+  report.factor_entries = main->analysis.symbolic.entries();
 }
 
 /// again: the numbers of rows alone have changed since the last call.
@@ -447,8 +451,9 @@ void Solver::trim() {
   State& s = *state_;
   s.imposed.assign(ordering());
   s.dense = DenseStage(s.memory);
-  for (Stage* stage : {&s.main, &s.exact}) stage->renew(s.memory);
-  s.extended.trim();
+  s.main.reset();
+  s.exact.reset();
+  s.extended.reset();
   s.measure = Measure(s.memory);
   s.large = false;
 }

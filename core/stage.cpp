@@ -81,14 +81,4 @@ void Stage::collect(const Problem& problem, const Island& island, Result& result
   }
 }
 
-void Stage::renew(const Memory& memory) {
-  analysis = Analysis(memory);
-  basis = Basis(memory);
-  ends = Array<IslandEnd>(memory);
-  tasks_ = Array<std::int32_t>(memory);
-  changed_ = Array<std::uint8_t>(memory);
-  epsilon_ = Array<double>(memory);
-  check_.trim();
-}
-
 }  // namespace mlcp

@@ -15,9 +15,6 @@ class Stage {
   Basis basis;
   Array<IslandEnd> ends;  ///< by island
 
-  /// Gives all memory back. What is new is there before the old goes, so that nothing is half gone when there is no memory for it.
-  void renew(const Memory& memory);
-
   /// Loads the problem's numbers and a start (NULL: rows that may push both ways are active). before: analysis covers the problem.
   void load(const SolveInput& input, const Mask* start);
   /// Every island by its method, crew permitting at the same time.

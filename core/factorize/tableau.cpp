@@ -15,16 +15,6 @@ void Tableau::load(const Island& island, const KktPattern& pattern, const KktVal
   }
 }
 
-void Tableau::trim() {
-  size_ = 0;
-  for (Array<Extended>* a : {&entry_, &column_}) {
-    a->clear();
-    a->trim();
-  }
-  in_.clear();
-  in_.trim();
-}
-
 std::int64_t Tableau::sweep(std::int32_t p) {
   const Extended pivot = (*this)(p, p), sign = in_[p] ? -1 : 1;
   for (std::int32_t i = 0; i < size_; ++i) column_[i] = i == p ? 0 : (*this)(i, p);

@@ -25,7 +25,6 @@ class Tableau {
   /// Takes p in, or out if it is in. before: Q_pp is not 0.  cost: size² / 2, less where Q is sparse.  returns the entries touched.
   std::int64_t sweep(std::int32_t p);
 
-  void trim();  ///< gives memory back
 
   /// y := Q x.
   void multiply(const Extended* x, Extended* y) const;

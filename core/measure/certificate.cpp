@@ -15,15 +15,6 @@ void CertificateCheck::prepare(const Problem& problem) {
   size_.reserve(std::max(problem.n(), problem.m()));
 }
 
-void CertificateCheck::trim() {
-  sum_.clear();
-  sum_.trim();
-  for (Array<double>* a : {&size_, &y_}) {
-    a->clear();
-    a->trim();
-  }
-}
-
 bool CertificateCheck::holds(const Problem& problem, const Mask* enabled, std::span<const std::int32_t> row,
                              std::span<const double> y, double zero) {
   const std::lock_guard turn(turn_);

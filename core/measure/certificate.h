@@ -15,7 +15,6 @@ class CertificateCheck {
   explicit CertificateCheck(const Memory& m) : sum_(m), size_(m), y_(m) {}
   /// Makes room, so that holds() allocates nothing.
   void prepare(const Problem& problem);
-  void trim();  ///< gives the room back
   /// What a proof may leave of zero, relative to |J|ᵀ|y| and |Σ||y|, and what yᵀ(r − J v_given) is to be more than.
   static constexpr double allowed = 1e-12;
 

@@ -298,13 +298,4 @@ mlcp_outcome ExtendedSimplex::solve(const SolveInput& input, const Island& islan
   return outcome;
 }
 
-void ExtendedSimplex::trim() {
-  tableau_.trim();
-  for (Array<Extended>* a : {&x_, &step_, &rhs_, &image_, &a_}) {
-    a->clear();
-    a->trim();
-  }
-  check_.trim();
-}
-
 }  // namespace mlcp

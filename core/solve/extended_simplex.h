@@ -28,7 +28,6 @@ class ExtendedSimplex {
 
   /// Rows that the proof names: so many entries of Workspace::certificate_row and certificate_y from the island's first ordinal on.
   std::int32_t certificate_rows() const { return certificate_rows_; }
-  void trim();  ///< gives memory back
 
  private:
   std::int32_t position(std::int32_t o) const { return basis_->position(o) - island_.first; }
