@@ -18,11 +18,12 @@ struct ErrorText {
 };
 
 struct mlcp_problem {
+  mlcp::SmallBlocks blocks;
   mlcp::Problem problem;
   ErrorText error;
 
-  explicit mlcp_problem(const mlcp::Memory& memory) : problem(memory) {}
-  explicit mlcp_problem(const mlcp::Problem& other) : problem(other) {}
+  explicit mlcp_problem(const mlcp::Memory& memory) : blocks(memory), problem(memory, blocks.memory()) {}
+  explicit mlcp_problem(const mlcp::Problem& other) : blocks(other.memory), problem(other, blocks.memory()) {}
 };
 
 struct mlcp_mask {

@@ -75,7 +75,7 @@ struct EditWorkspace {
 /// jacobian    m rows, columns index velocities.
 /// compliance  m columns, both triangles; every column holds its diagonal entry, at diagonal[i].
 struct Problem {
-  Memory memory;
+  Memory memory;                 ///< for copies and what is made beside the problem; its own arrays may come from elsewhere
   Array<Body> bodies;            ///< indexed by id
   Array<std::int32_t> body_of;   ///< n: velocity → body id
   SparseArrays mass;
@@ -95,11 +95,18 @@ struct Problem {
   std::int32_t free_ids = 0;     ///< ids in `bodies` to be given out again; the last id is never free
   EditWorkspace work;
 
-  explicit Problem(const Memory& m)
-      : memory(m), bodies(m), body_of(m), mass(m), mass_slot(m), mass_slot_start(m), momentum(m), given_velocity(m), jacobian(m),
+  explicit Problem(const Memory& m) : Problem(m, m) {}
+  /// m: for the arrays alone.
+  Problem(const Memory& beside, const Memory& m)
+      : memory(beside), bodies(m), body_of(m), mass(m), mass_slot(m), mass_slot_start(m), momentum(m), given_velocity(m), jacobian(m),
         compliance(m), diagonal(m), r(m), lo(m), hi(m), key(m), contacts(m), couplings(m), work(m) {
     mass_slot_start.push_back(0);
   }
+  Problem(const Problem& other, const Memory& m) : Problem(other.memory, m) { *this = other; }
+  Problem(const Problem&) = delete;  // its arrays would share memory that goes with the other one
+  Problem(Problem&&) = default;
+  Problem& operator=(const Problem&) = default;
+  Problem& operator=(Problem&&) = default;
 
   std::int32_t n() const { return static_cast<std::int32_t>(momentum.size()); }
   std::int32_t m() const { return static_cast<std::int32_t>(r.size()); }

@@ -58,7 +58,7 @@ TEST(ExtremeNumbers, UnitsDoNotMatter) {
   for (std::uint64_t seed = 1; seed <= 300 && !HasFailure(); ++seed) {
     Random random(seed);
     const mlcp::Problem p = random_problem(random, {.rows_least = 1, .feasible = 1});
-    mlcp::Problem q = p;
+    mlcp::Problem q(p, mlcp::Memory());
     const int mass = random.integer(-200, 200), speed = random.integer(-200, 200);
     for (double& x : q.mass.values) x = std::ldexp(x, mass);
     for (double& x : q.momentum) x = std::ldexp(x, mass + speed);

@@ -292,7 +292,7 @@ TEST(Friction, lemke_on_the_stewart_trinkle_form_finds_them_too) {
 TEST(Friction, frictionless_contacts_give_the_bits_of_plain_rows) {
   Random random(16);
   mlcp::Problem p = random_contacts(random, 4, 5, 3, 0.5, MLCP_FRICTION_NONE);
-  mlcp::Problem plain = p;
+  mlcp::Problem plain(p, mlcp::Memory());
   mlcp::rows_clear(plain);
   for (const Contact& c : p.contacts) {
     std::vector<Entry> entries;

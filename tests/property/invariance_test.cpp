@@ -69,7 +69,7 @@ std::vector<int> permutation(Random& random, int size) {
 
 /// Rows in another order and of another length: row new = scale · row order[new], γ scales inversely.
 mlcp::Problem rows_changed(const mlcp::Problem& p, const std::vector<int>& order, const std::vector<double>& scale) {
-  mlcp::Problem q = p;
+  mlcp::Problem q(p, mlcp::Memory());
   mlcp::rows_clear(q);
   const int m = p.m();
   Eigen::MatrixXd sigma = Eigen::MatrixXd::Zero(m, m);

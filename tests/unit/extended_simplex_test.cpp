@@ -80,7 +80,7 @@ TEST(ExtendedSimplex, AgreesWithTheSimplexFromAnyStart) {
     mlcp::Analysis analysis{mlcp::Memory()};
     analysis.run(p, nullptr, true, {});
     if (analysis.symbolic.islands.size() != 1 || analysis.pattern.size() != p.n() + p.m()) continue;
-    const Extended s(p, &start);
+    const Extended s({p, mlcp::Memory()}, &start);
     const Solution expected = solve(p);
     ASSERT_EQ(s.outcome, expected.report.outcome) << "seed " << seed;
     if (s.outcome != MLCP_SOLVED) {
