@@ -446,7 +446,7 @@ void Solver::solve_again(const Problem& problem, const Mask* enabled, const Mask
   state_->solve({problem, enabled, state_->settings, state_->contradiction, state_->contact_of_row}, &start, true, report);
 }
 
-/// The order is kept, so that the next solve gives the same bits as without.
+/// The order is kept, so that the next solve of the same pattern gives the same bits as without.
 void Solver::trim() {
   State& s = *state_;
   s.imposed.assign(ordering());

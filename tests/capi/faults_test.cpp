@@ -83,12 +83,6 @@ mlcp_settings settings_of(const Way& way) {
   return settings;
 }
 
-std::vector<double> impulses(const mlcp_solver* solver) {
-  const double* gamma = nullptr;
-  int32_t count = 0;
-  EXPECT_EQ(mlcp_solver_impulses(solver, &gamma, &count), MLCP_OK);
-  return {gamma, gamma + count};
-}
 
 /// A folder of its own, removed with all in it.
 class Folder {

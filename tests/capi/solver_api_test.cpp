@@ -23,36 +23,6 @@ ProblemHandle make_ball(const mlcp_allocator* allocator = nullptr) {
   return problem;
 }
 
-/// A pile of `count` bodies of one velocity, each on the one below.
-void fill_pile(mlcp_problem* p, int32_t count) {
-  ASSERT_EQ(mlcp_problem_clear(p), MLCP_OK);
-  for (int32_t i = 0; i < count; ++i) add_body(p, 1, 1 + i % 3);
-  std::vector<double> k(count, -1.0);
-  ASSERT_EQ(mlcp_problem_set_momentum(p, 0, count, k.data()), MLCP_OK);
-  add_row(p, {0}, {1}, 1000);
-  for (int32_t i = 1; i < count; ++i) add_row(p, {i - 1, i}, {-1, 1}, 1000 + static_cast<uint64_t>(i));
-}
-
-mlcp_report new_report() {
-  mlcp_report report;
-  mlcp_report_init(&report, sizeof report);
-  return report;
-}
-
-std::vector<double> velocities(const mlcp_solver* solver) {
-  const double* v = nullptr;
-  int32_t count = 0;
-  EXPECT_EQ(mlcp_solver_velocities(solver, &v, &count), MLCP_OK);
-  return {v, v + count};
-}
-
-std::vector<double> impulses(const mlcp_solver* solver) {
-  const double* gamma = nullptr;
-  int32_t count = 0;
-  EXPECT_EQ(mlcp_solver_impulses(solver, &gamma, &count), MLCP_OK);
-  return {gamma, gamma + count};
-}
-
 struct SolverApi : testing::Test {
   ProblemHandle problem = make_ball();
   mlcp_problem* p = problem.get();
@@ -430,65 +400,6 @@ TEST_F(SolverApi, ASolveStopsInsideAnalysisAndFactorizationToo) {
     ASSERT_EQ(report.outcome, MLCP_SOLVED) << calls;
     EXPECT_EQ(impulses(stopped.get()), undisturbed) << calls;
   }
-}
-
-TEST(SolverMemory, EveryAllocationOfASolveMayFail) {
-  ProblemHandle problem = make_problem();
-  fill_pile(problem.get(), 12);
-  SolverHandle plain = make_solver();
-  ASSERT_EQ(mlcp_solve(plain.get(), problem.get(), nullptr, nullptr, nullptr), MLCP_OK);
-  Allocator allocator;
-  mlcp_solver* solver = nullptr;
-  for (int64_t n = 0; !solver && n < 1000; ++n) {
-    allocator.fail_at(n);
-    if (mlcp_solver_create(nullptr, allocator.hooks(), &solver) != MLCP_OK) {
-      EXPECT_EQ(allocator.blocks(), 0);
-    }
-  }
-  ASSERT_NE(solver, nullptr);
-  SolverHandle owner(solver);
-  mlcp_status status = MLCP_ERROR_OUT_OF_MEMORY;
-  for (int64_t n = 0; status == MLCP_ERROR_OUT_OF_MEMORY && n < 10000; ++n) {
-    allocator.fail_at(n);
-    status = mlcp_solve(solver, problem.get(), nullptr, nullptr, nullptr);
-  }
-  ASSERT_EQ(status, MLCP_OK) << mlcp_solver_error(solver);
-  EXPECT_EQ(velocities(solver), velocities(plain.get()));
-  EXPECT_EQ(impulses(solver), impulses(plain.get()));
-}
-
-TEST(SolverMemory, AStepAsLargeAsTheLastAllocatesNothing) {
-  Allocator allocator;
-  ProblemHandle problem = make_problem(allocator.hooks());
-  mlcp_solver* raw = nullptr;
-  mlcp_mask* start = nullptr;
-  ASSERT_EQ(mlcp_solver_create(nullptr, allocator.hooks(), &raw), MLCP_OK);
-  ASSERT_EQ(mlcp_mask_create(allocator.hooks(), 0, MLCP_ROW_ACTIVE, &start), MLCP_OK);
-  SolverHandle solver(raw);
-  MaskHandle mask(start);
-  for (int step = 0; step < 4; ++step) {
-    if (step == 2) allocator.fail_at(0);
-    fill_pile(problem.get(), 30);
-    const mlcp_mask* last = start;
-    if (step > 0) {
-      ASSERT_EQ(mlcp_solver_mask(raw, &last), MLCP_OK);
-    }
-    ASSERT_EQ(mlcp_mask_carry(start, problem.get(), last, MLCP_ROW_AT_LOWER), MLCP_OK);
-    ASSERT_EQ(mlcp_solve(raw, problem.get(), nullptr, start, nullptr), MLCP_OK) << mlcp_solver_error(raw);
-  }
-  EXPECT_EQ(allocator.calls(), 0);
-}
-
-TEST(SolverMemory, TrimKeepsTheResults) {
-  ProblemHandle problem = make_problem();
-  fill_pile(problem.get(), 10);
-  SolverHandle solver = make_solver();
-  ASSERT_EQ(mlcp_solve(solver.get(), problem.get(), nullptr, nullptr, nullptr), MLCP_OK);
-  const std::vector<double> v = velocities(solver.get());
-  ASSERT_EQ(mlcp_solver_trim(solver.get()), MLCP_OK);
-  EXPECT_EQ(velocities(solver.get()), v);
-  ASSERT_EQ(mlcp_solve(solver.get(), problem.get(), nullptr, nullptr, nullptr), MLCP_OK);
-  EXPECT_EQ(velocities(solver.get()), v);
 }
 
 TEST_F(SolverApi, FactorHasThePatternOfEveryEnabledRow) {

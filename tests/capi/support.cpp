@@ -143,4 +143,33 @@ ProblemHandle make_rich_problem(const mlcp_allocator* allocator) {
   return problem;
 }
 
+void fill_pile(mlcp_problem* p, int32_t count) {
+  ASSERT_EQ(mlcp_problem_clear(p), MLCP_OK);
+  for (int32_t i = 0; i < count; ++i) add_body(p, 1, 1 + i % 3);
+  std::vector<double> k(count, -1.0);
+  ASSERT_EQ(mlcp_problem_set_momentum(p, 0, count, k.data()), MLCP_OK);
+  add_row(p, {0}, {1}, 1000);
+  for (int32_t i = 1; i < count; ++i) add_row(p, {i - 1, i}, {-1, 1}, 1000 + static_cast<uint64_t>(i));
+}
+
+mlcp_report new_report() {
+  mlcp_report report;
+  mlcp_report_init(&report, sizeof report);
+  return report;
+}
+
+std::vector<double> velocities(const mlcp_solver* solver) {
+  const double* v = nullptr;
+  int32_t count = 0;
+  EXPECT_EQ(mlcp_solver_velocities(solver, &v, &count), MLCP_OK);
+  return {v, v + count};
+}
+
+std::vector<double> impulses(const mlcp_solver* solver) {
+  const double* gamma = nullptr;
+  int32_t count = 0;
+  EXPECT_EQ(mlcp_solver_impulses(solver, &gamma, &count), MLCP_OK);
+  return {gamma, gamma + count};
+}
+
 }  // namespace capi

@@ -65,6 +65,12 @@ std::vector<double> diagonal_mass(int32_t d, double diagonal = 1);
 int32_t add_body(mlcp_problem* problem, int32_t d = 3, double diagonal = 1);
 /// One row over any velocities with bounds 0, inf.
 int32_t add_row(mlcp_problem* problem, const std::vector<int32_t>& columns, const std::vector<double>& values, uint64_t key = 0);
+/// Clears the problem and puts a pile into it: `count` bodies of one velocity, each on the one below.
+void fill_pile(mlcp_problem* problem, int32_t count);
+mlcp_report new_report();
+/// Of the last solve, copies.
+std::vector<double> velocities(const mlcp_solver* solver);
+std::vector<double> impulses(const mlcp_solver* solver);
 
 struct Matrix {
   int32_t rows, columns;

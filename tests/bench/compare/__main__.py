@@ -9,6 +9,7 @@ from pathlib import Path
 from . import candidates, families, figures, plots, rounds, tables
 from .library import Library
 from .peers import all_peers, native as native_peers
+from .worker import keep_freed_memory
 
 # of the picture in the README
 CHOSEN = ("humanoid_fall", "humanoids22", "spheres_356", "stacked_boxes", "pile 300", "pile 3000", "rope 10000", "wall 10", "islands 100")
@@ -71,6 +72,7 @@ def head(library, peers, missing):
 def main():
     options = arguments()
     sys.stdout.reconfigure(line_buffering=True)
+    keep_freed_memory()
     library = Library(options.build / "lib" / "libmlcp_bench.so")
     native = Library(options.native / "lib" / "libmlcp_bench.so") if options.native else None
     native_peers.folder = options.build / "lib"

@@ -45,6 +45,14 @@ def _peak():
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
 
 
+def keep_freed_memory():
+    """As in a process that has run for a while: glibc hands memory back to the system from twice the largest block on that was ever freed. In a new
+    process that is 128 KB, and most of a cold solve of a few hundred rows are page faults, for libmlcp and for peers alike.
+    Workers are forked and inherit it."""
+    block = np.empty(31 << 20, np.uint8)  # glibc follows up to 32 MB
+    del block
+
+
 def _serve(pipe, problem, candidate):
     try:
         session = candidate.open(problem)
