@@ -119,9 +119,14 @@ mlcp_status mlcp_solve(mlcp_solver* solver, const mlcp_problem* problem, const m
     s.lent.mask.reserve(problem->problem.m());
     if (!problem->problem.contacts.empty() || !problem->problem.couplings.empty()) s.lent.mask.slip.reserve(problem->problem.m());
     s.failures.forget();
-    s.solver.solve(problem->problem, mask_of(enabled), mask_of(start), full);
-    if (full.outcome != MLCP_SOLVED && !s.failures.full())
-      s.failures.keep(source_of(problem->problem, solver, s.solver.settings(), enabled, start));
+    try {
+      s.solver.solve(problem->problem, mask_of(enabled), mask_of(start), full);
+      if (full.outcome != MLCP_SOLVED && !s.failures.full())
+        s.failures.keep(source_of(problem->problem, solver, s.solver.settings(), enabled, start));
+    } catch (...) {
+      s.solver.forget_result();
+      throw;
+    }
     const Mask& mask = s.solver.result().mask;
     s.lent.mask.state.assign(mask.state.span());
     s.lent.mask.key.assign(mask.key.span());

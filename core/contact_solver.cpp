@@ -121,6 +121,10 @@ ContactSolver::~ContactSolver() {
 }
 
 const Settings& ContactSolver::settings() const { return state_->settings; }
+void ContactSolver::forget_result() {
+  state_->result.valid = false;
+  state_->solver.forget_result();
+}
 const Result& ContactSolver::result() const { return *state_->last; }
 const Array<mlcp_contact_state>& ContactSolver::contact_states() const { return state_->contact_state; }
 const Array<std::int32_t>& ContactSolver::contact_facets() const { return state_->contact_facets; }

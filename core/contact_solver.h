@@ -19,6 +19,8 @@ class ContactSolver {
   void analyze(const Problem& problem, const Mask* enabled);
   /// report.struct_size is left alone, every other field is written.
   void solve(const Problem& problem, const Mask* enabled, const Mask* start, mlcp_report& report);
+  /// After a solve that ended with an error: there are no results, and none to start the next one from.
+  void forget_result();
   const Result& result() const;
   /// Of the last solve, per contact: what it does; how many generators of its cone were tried.
   const Array<mlcp_contact_state>& contact_states() const;

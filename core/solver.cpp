@@ -93,6 +93,7 @@ Solver::~Solver() {
 
 const Settings& Solver::settings() const { return state_->settings; }
 const Result& Solver::result() const { return state_->result; }
+void Solver::forget_result() { state_->result.valid = false; }
 
 void Solver::set_settings(const Settings& settings) {
   check_settings(settings);

@@ -30,6 +30,8 @@ class Solver {
   void solve_again(const Problem& problem, const Mask* enabled, const Mask& start, mlcp_report& report);
   /// Of the solves from now on: see SolveInput.
   void measure_contacts(double contradiction, std::span<const std::int32_t> contact_of_row);
+  /// There are no results until the next solve.
+  void forget_result();
   const Result& result() const;
 
   /// The last analysis; without nodes before the first one.

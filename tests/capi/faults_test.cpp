@@ -144,6 +144,9 @@ TEST_P(EveryWay, MemoryRunsOutAtEachCallOfASolve) {
     if (status == MLCP_OK) break;
     ASSERT_EQ(status, MLCP_ERROR_OUT_OF_MEMORY) << n << ": " << mlcp_solver_error(raw);
     EXPECT_STRNE(mlcp_solver_error(raw), "");
+    const double* v = nullptr;
+    int32_t count = 0;
+    EXPECT_EQ(mlcp_solver_velocities(raw, &v, &count), MLCP_ERROR_STATE) << n << ": results of a solve that failed";
     // what is there of the solver still serves
     allocator.fail_at(0);
     const mlcp_status trimmed = mlcp_solver_trim(raw);

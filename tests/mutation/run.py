@@ -16,10 +16,11 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RATIO, FACTOR, KERNELS, BASIS = ("core/solve/ratio_test.cpp", "core/factorize/factor.cpp", "core/factorize/kernel_loops.h", "core/solve/basis.cpp")
-PANELS, BLOCKS, RESPONSE = ("core/factorize/panel_loops.h", "core/factorize/block_ldl.h", "core/factorize/dense_response.cpp")
+PANELS, RESPONSE = ("core/factorize/panel_loops.h", "core/factorize/dense_response.cpp")
 DENSE_NEWTON, DENSE_SIMPLEX = "core/solve/dense_newton.cpp", "core/solve/dense_simplex.cpp"
 NEWTON, PROXIMAL, INTERIOR = ("core/solve/newton.cpp", "core/solve/proximal.cpp", "core/solve/interior_point.cpp")
 EXTENDED, SYMBOLIC = ("core/solve/extended_simplex.cpp", "core/analyze/symbolic.cpp")
+ORDERING, LINEAGE, ANALYSIS = ("core/analyze/ordering.cpp", "core/analyze/lineage.cpp", "core/analyze/analysis.cpp")
 TESTS = ("unit_tests", "property_tests")
 
 # name: file, text that stands there exactly once, what takes its place. Not among them: what only costs steps, as Newton's patience, which the limit of
@@ -63,15 +64,19 @@ MUTATIONS = {
     "dense factor: pivots within a block": (PANELS, "s[j] -= s[c][j] * unit;", "s[j] -= unit * unit[j];"),
     "dense forward: sign": (PANELS, "s2 -= left[2] * x;", "s2 += left[2] * x;"),
     "dense forward: within a block": (PANELS, "s[3] -= own[11] * s[2];", ""),
-    "dense forward: one vector": (BLOCKS, "s[r] -= l[r] * x[q];", "s[r] += l[r] * x[q];"),
-    "dense backward: sign": (BLOCKS, "x[q] -= above", "x[q] += above"),
+    "dense forward: odd columns of a panel": (PANELS, "t3 += left[7] * y;", "t3 += left[6] * y;"),
+    "dense forward: one vector": (PANELS, "t += *reinterpret_cast<const Lanes*>(l + 4) * x[q + 1];", "t += *reinterpret_cast<const Lanes*>(l + 4) * x[q];"),
+    "dense forward: one vector, within a block": (PANELS, "for (int q = 0; q < 3; ++q) s -=", "for (int q = 0; q < 2; ++q) s -="),
+    "dense backward: sign": (PANELS, "*reinterpret_cast<Lanes*>(x) -= (even + odd)", "*reinterpret_cast<Lanes*>(x) += (even + odd)"),
+    "dense backward: within a block": (PANELS, "y[1] -= own[6] * y[2] + own[7] * y[3];", "y[1] -= own[6] * y[2];"),
+    "dense response: A mirrored": (PANELS, "Lanes{s[0][r], s[1][r], s[2][r], s[3][r]};", "Lanes{s[0][r], s[1][r], s[3][r], s[2][r]};"),
     "dense response: compliance forgotten": (RESPONSE, "if (const std::int32_t j = local_[problem.n() + sigma.indices[t]]; j >= 0)", "if (const std::int32_t j = -1; j >= 0)"),
     "dense response: given velocity forgotten": (RESPONSE, "r -= given;", ""),
     "dense response: row ends early": (PANELS, "!= 0) end = b + 1;", "!= 0) end = b;"),
     "dense response: dependent rows stay": (RESPONSE, "least[r] = drop * ", "least[r] = -1e300 * "),
     "dense response: impulses at rest": (RESPONSE, "x[t] -= s.response(s.member[t], j) * s.gamma[j];", "x[t] += s.response(s.member[t], j) * s.gamma[j];"),
     "dense response: pivot of a row outside": (RESPONSE, "pivot -= x[t] * (x[t] * s.active.inverse[t]);", "pivot += x[t] * (x[t] * s.active.inverse[t]);"),
-    "dense response: velocities": (RESPONSE, "v[p] += (y[4 * p] * g[0]", "v[p] -= (y[4 * p] * g[0]"),
+    "dense response: velocities": (RESPONSE, "g[i - 4 * c] = -s.gamma[i];", "g[i - 4 * c] = s.gamma[i];"),
     "dense correction: of the impulses": (RESPONSE, "g[t] -= y * (v[p] * s.mass.inverse[p]);", "g[t] += y * (v[p] * s.mass.inverse[p]);"),
     "dense correction: of the velocities": (RESPONSE, "v[p] += y * g[t];", "v[p] -= y * g[t];"),
     "dense Newton: leaves to the other bound": (DENSE_NEWTON, "rest(i, s_.gamma[i] < s_.lo[i] ?", "rest(i, s_.gamma[i] > s_.lo[i] ?"),
@@ -94,7 +99,7 @@ MUTATIONS = {
     "dense simplex: start without impulses at rest": (DENSE_SIMPLEX, "if (!is_in(j)) rhs[i] += a[j] * s_.gamma[j];", ";"),
     "Newton: whole steps only": (NEWTON, "if (share > 0) flips = proximal_.largest", "if (false) flips = proximal_.largest"),
     "Newton: share never smaller": (NEWTON, "      ++share;\n", ""),
-    "Newton: point not looked at again": (NEWTON, "if (finish(island) == Ending::settled) return Ending::settled;\n    if (flips_.empty())", "return Ending::settled;\n    if (flips_.empty())"),
+    "Newton: point not looked at again": (NEWTON, "if (finish(island, false, true) == Ending::settled) return Ending::settled;\n    if (flips_.empty())", "return Ending::settled;\n    if (flips_.empty())"),
     "Newton: violated rows without impulse pass": (NEWTON, "error <= enough && empty_rows_hold(island) ?", "error <= enough ?"),
     "Newton: start lost when it gives up": (NEWTON, "  if (ending != Ending::settled) {\n    basis_.values.regularise(*basis_.pattern, island, 0, 0);\n    go_back(island);", "  if (ending != Ending::settled) {\n    go_back(island);"),
     "partial step: the least instead of the most": (PROXIMAL, "return da > db ||", "return da < db ||"),
@@ -115,6 +120,15 @@ MUTATIONS = {
     "batches: of unequal rows": (SYMBOLIC, " || !equal(p - 1, p)", ""),
     "guess: sweeps on when the time is over": ("core/solve/gauss_seidel.cpp", " || limits_.check(counts_, 0) != MLCP_SOLVED", ""),
     "proximal: centre's sign": (PROXIMAL, "(-e * basis_.work.center[basis_.position(o)] - slack) / (sigma + e)", "(e * basis_.work.center[basis_.position(o)] - slack) / (sigma + e)"),
+    "lineage: two trees": (LINEAGE, "return chain_end_[q];", "return q;"),
+    "lineage: ends of chains": (LINEAGE, "parent[p] == p + 1 ? chain_end_[p + 1] : p", "chain_end_[p + 1 < size ? p + 1 : p]"),
+    "carried order: rows before their velocities": (ORDERING, "2 * at + !crowded", "2 * at"),
+    "carried order: new velocities after their rows": (ORDERING, "!crowding.crowded[n + i]; ++e) place(", "!crowding.crowded[n + i] && e < 0; ++e) place("),
+    "carried order: velocities without rows forgotten": (ORDERING, "for (std::int32_t j = 0; j < n; ++j) place(j);", ""),
+    "carried order: where any two meet": (ORDERING, "crowded ? std::min(at, p) : lineage_.meet(at, p)", "std::max(at, p)"),
+    "carried order: kept whatever it fills in": (ANALYSIS, "if (symbolic.entries() <= allowed_entries())", "if (true)"),
+    "carried order: never tried": (ANALYSIS, "if (!done_ || exact != exact_ || pause_ > 0)", "if (true)"),
+    "dense refinement: beyond a bound": ("core/dense_stage.cpp", "gamma = std::clamp(gamma + s.x_rows()[t], s.lo[i], s.hi[i]);", "gamma = gamma + s.x_rows()[t];"),
 }
 
 
