@@ -19,8 +19,10 @@ class Crew {
 
  private:
   static constexpr std::int64_t least_cost = 500;
+  /// Below, about 150 µs, nearly all is done by the time that a sleeping thread has come.
+  static constexpr std::int64_t worth_waking = 60'000;
   template <class Task>
-  void fork(std::int32_t count, Task task);
+  void fork(std::int32_t count, bool wakes, Task task);
 
   Watch& watch_;
   Pool& pool_;
@@ -33,23 +35,25 @@ void Crew::run(std::int32_t count, Array<std::int32_t>& firsts, bool alone, Cost
     return;
   }
   firsts.clear();
-  std::int64_t filled = least_cost;
+  std::int64_t filled = least_cost, total = 0;
   for (std::int32_t s = 0; s < count; ++s) {
     if (filled >= least_cost) {
       firsts.push_back(s);
       filled = 0;
     }
-    filled += cost(s);
+    const std::int64_t more = cost(s);
+    filled += more;
+    total += more;
   }
   const auto tasks = static_cast<std::int32_t>(firsts.size());
   firsts.push_back(count);
-  fork(tasks, [&](std::int32_t t) {
+  fork(tasks, total >= worth_waking, [&](std::int32_t t) {
     for (std::int32_t s = firsts[t]; s < firsts[t + 1]; ++s) task(s);
   });
 }
 
 template <class Task>
-void Crew::fork(std::int32_t count, Task task) {
+void Crew::fork(std::int32_t count, bool wakes, Task task) {
   if (count <= 1) {
     if (count == 1) task(0);
     return;
@@ -71,7 +75,7 @@ void Crew::fork(std::int32_t count, Task task) {
   if (settings.parallel_for)
     settings.parallel_for(settings.parallel_context, count, run_one, &call);
   else
-    pool_.run(count, run_one, &call, &Watch::ask, &watch_);
+    pool_.run(count, wakes, run_one, &call, &Watch::ask, &watch_);
   if (call.error) std::rethrow_exception(call.error);
 }
 

@@ -8,9 +8,14 @@ namespace {
 
 /// What the dense way is for. Beyond, sparse factors touch less, and an order that was found once is worth keeping.
 constexpr std::int32_t small = 96;
-/// Up to here it is for islands with so many entries that a sparse factor would fill in anyway.
+/// Up to here it is for islands with so many entries that a sparse factor would fill in anyway,
 constexpr std::int32_t medium = 200;
 constexpr double hardly_sparse = 0.1;
+/// and for so many rows on up to so many velocities, with hardly more rows than velocities: others depend on each other, and pivots on them are many.
+constexpr std::int32_t many_velocities = 400;
+/// For so many rows on none, whose A is there already, if few of them are active.
+constexpr std::int32_t many_rows = 400;
+constexpr bool seldom_dependent(std::int32_t rows, std::int32_t velocities) { return 10 * rows <= 11 * velocities; }
 /// Errors above this are refined, and left to the sparse way if that does not help.
 constexpr double refined = 1e-13;
 /// A momentum error up to this is rounding.
@@ -45,8 +50,9 @@ bool DenseStage::takes(const SolveInput& input) {
   if (knew_) return fits_;
   fits_ = true;
   for (std::int32_t c = 0; c < components.count() && fits_; ++c) {
-    const std::int32_t size = std::max(components.velocity_count(c), components.row_count(c));
-    fits_ = size <= small || (size <= medium && density(input.problem, c) >= hardly_sparse);
+    const std::int32_t velocities = components.velocity_count(c), rows = components.row_count(c), size = std::max(velocities, rows);
+    fits_ = size <= small || (velocities == 0 && rows <= many_rows) || (rows <= medium && velocities <= many_velocities && seldom_dependent(rows, velocities)) ||
+            (size <= medium && density(input.problem, c) >= hardly_sparse);
   }
   return fits_;
 }
@@ -58,27 +64,35 @@ bool DenseStage::solve(const SolveInput& input, const Mask* start, Watch& watch,
   if (!prepared_) response_.prepare(problem, components);
   prepared_ = true;
   counts_.assign(count, Counts{});
-  solved_.assign(count, 0);
+  solved_.resize(count);
+  parts_.resize(count);
   result.gamma.assign(problem.m(), 0.0);
   result.mask.state.assign(problem.m(), MLCP_ROW_DISABLED);
+  const Errors free = measure.begin(problem, input.enabled, components.free_velocity.span(), result.v.span());
   const auto cost = [&](std::int32_t c) { return 10 + std::int64_t{components.velocity_count(c)} * (components.velocity_count(c) + components.row_count(c)); };
+  const auto look = [&](std::int32_t c) {
+    parts_[c] = measure.part(problem, components.velocities_of(c), components.rows_of(c), result.v.span(), result.gamma.span());
+  };
   crew.run(count, tasks_, false, cost, [&](std::int32_t c) {
     const mlcp_progress begins{sizeof(mlcp_progress), 0, 0, 0, c, count, 0};
-    if (watch.check(begins) == MLCP_SOLVED) solved_[c] = solve_island(input, start, c, result);
+    solved_[c] = watch.check(begins) == MLCP_SOLVED && solve_island(input, start, c, result);
+    if (solved_[c]) look(c);  // while its numbers are at hand
   });
   for (std::int32_t c = 0; c < count; ++c) {
     if (!solved_[c]) return false;
     counts += counts_[c];
   }
   for (int round = 0;; ++round) {
-    errors = measure.run(problem, input.enabled, result.v.span(), result.gamma.span(), input.contact_of_row);
+    errors = measure.end(problem, input.enabled, result.gamma.span(), input.contact_of_row, free, parts_.span());
     if (errors.largest() <= refined) break;
     if (round == most_refinements) return false;
-    for (std::int32_t c = 0; c < count; ++c) {
-      if (!refine(c, measure, round > 0, result)) continue;
-      ++counts.refinements;
+    crew.run(count, tasks_, false, cost, [&](std::int32_t c) {
+      solved_[c] = !refine(c, measure, round > 0, result);
+      if (solved_[c]) return;
       stop(c, measure, result);
-    }
+      look(c);
+    });
+    for (std::int32_t c = 0; c < count; ++c) counts.refinements += !solved_[c];
   }
   for (std::int32_t c = 0; c < count; ++c) mark_redundant(c, measure, result);
   return true;

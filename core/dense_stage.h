@@ -11,7 +11,7 @@ namespace mlcp {
 /// cannot solve to rounding it leaves to Stage.
 class DenseStage {
  public:
-  explicit DenseStage(const Memory& m) : components(m), response_(m), counts_(m), solved_(m), tasks_(m) {}
+  explicit DenseStage(const Memory& m) : components(m), response_(m), counts_(m), solved_(m), parts_(m), tasks_(m) {}
 
   Components components;
 
@@ -34,7 +34,8 @@ class DenseStage {
   bool knew_ = false, fits_ = false, prepared_ = false;
   DenseResponse response_;
   Array<Counts> counts_;        // by component
-  Array<std::uint8_t> solved_;  // likewise
+  Array<std::uint8_t> solved_;  // likewise, to begin with; then whether nothing was left to refine
+  Array<Measure::Part> parts_;  // likewise
   Array<std::int32_t> tasks_;   // first component of each task, and the end
 };
 

@@ -133,8 +133,12 @@ void Solver::analyze(const Problem& problem, const Mask* enabled) {
 void Solver::State::solve_free_velocities(const Problem& problem, const Array<std::int32_t>& free) {
   for (const std::int32_t j : free) {
     const double mass = problem.mass.values[problem.mass.pointers[j]];
-    if (!(mass > 0)) indefinite = j;
-    result.v[j] = mass > 0 ? problem.momentum[j] / mass : 0;
+    if (mass > 0) {
+      result.v[j] = problem.momentum[j] / mass;
+    } else {
+      indefinite = j;
+      result.v[j] = 0;
+    }
   }
 }
 

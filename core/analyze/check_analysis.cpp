@@ -36,6 +36,21 @@ bool check_runs(const Symbolic& symbolic) {
   return true;
 }
 
+/// A batch is a run, or single columns with equal rows.
+bool check_batches(const Symbolic& symbolic) {
+  for (std::int32_t first = 0; first < symbolic.size();) {
+    const std::int32_t end = symbolic.batch_end[first];
+    if (end <= first || end > symbolic.size() || symbolic.batch_start[end - 1] != first) return false;
+    for (std::int32_t p = first + 1; p < end && symbolic.run_end[first] != end; ++p)
+      if (symbolic.run_end[p - 1] != p || symbolic.run_end[p] != p + 1 ||
+          !std::equal(symbolic.rows.begin() + symbolic.pointers[first], symbolic.rows.begin() + symbolic.pointers[first + 1],
+                      symbolic.rows.begin() + symbolic.pointers[p], symbolic.rows.begin() + symbolic.pointers[p + 1]))
+        return false;
+    first = end;
+  }
+  return true;
+}
+
 bool check_islands(const Symbolic& symbolic) {
   std::int32_t next = 0;
   for (const Island& island : symbolic.islands) {
@@ -51,7 +66,7 @@ bool check_islands(const Symbolic& symbolic) {
 
 bool check_analysis(const Analysis& analysis) {
   return check_order(analysis.pattern, analysis.crowding) && check_columns(analysis.symbolic) && check_runs(analysis.symbolic) &&
-         check_islands(analysis.symbolic);
+         check_batches(analysis.symbolic) && check_islands(analysis.symbolic);
 }
 
 }  // namespace mlcp

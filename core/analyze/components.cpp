@@ -22,25 +22,44 @@ bool Components::update(const Problem& problem, const Mask* enabled) {
   enabled_.assign(problem.m(), 1);
   if (enabled)
     for (std::int32_t i = 0; i < problem.m(); ++i) enabled_[i] = enabled->state[i] != MLCP_ROW_DISABLED;
+  set_free_apart(problem);
   join_all(problem);
   sort(problem);
   pattern_.take(problem);
   return known_ = true;
 }
 
+/// Most velocities of a scene may be free: what follows looks at the others alone.
+void Components::set_free_apart(const Problem& problem) {
+  const std::int32_t n = problem.n(), m = problem.m();
+  const SparseView mass = problem.mass_view(), jacobian = problem.jacobian_view();
+  touched_.assign(n, 0);
+  for (std::int32_t i = 0; i < m; ++i)
+    for (std::int32_t t = jacobian.pointers[i]; t < jacobian.pointers[i + 1] && enabled_[i]; ++t) touched_[jacobian.indices[t]] = 1;
+  free_velocity.resize(n);
+  coupled_.resize(n);
+  std::int32_t *free = free_velocity.data(), *coupled = coupled_.data();
+  for (std::int32_t j = 0; j < n; ++j) {  // without branches: both kinds come in turns
+    const bool alone = !touched_[j] & (mass.pointers[j + 1] - mass.pointers[j] == 1);
+    *free = *coupled = j;
+    free += alone & !fixed_[j];
+    coupled += !alone & !fixed_[j];
+  }
+  free_velocity.resize(free - free_velocity.data());
+  coupled_.resize(coupled - coupled_.data());
+}
+
 void Components::join_all(const Problem& problem) {
   const std::int32_t n = problem.n(), m = problem.m();
   const SparseView mass = problem.mass_view(), jacobian = problem.jacobian_view(), sigma = problem.compliance_view();
   start_sets(parent_, n + m);
-  for (const Body& body : problem.bodies) {
-    if (body.prescribed) continue;
-    for (std::int32_t j = body.offset; j < body.offset + body.dimension; ++j) {
-      if (!body.sparse)
-        parent_[j] = body.offset;
-      else
-        for (std::int32_t t = mass.pointers[j]; t < mass.pointers[j + 1]; ++t)
-          if (mass.indices[t] < j) join(parent_, j, mass.indices[t]);
-    }
+  for (const std::int32_t j : coupled_) {
+    const Body& body = problem.bodies[problem.body_of[j]];
+    if (!body.sparse)
+      parent_[j] = body.offset;
+    else
+      for (std::int32_t t = mass.pointers[j]; t < mass.pointers[j + 1]; ++t)
+        if (mass.indices[t] < j) join(parent_, j, mass.indices[t]);
   }
   for (std::int32_t i = 0; i < m; ++i) {
     if (!enabled_[i]) continue;
@@ -54,57 +73,39 @@ void Components::join_all(const Problem& problem) {
 /// Roots are the smallest members, so that a pass over the nodes meets each root first and components are in the order of those.
 void Components::sort(const Problem& problem) {
   const std::int32_t n = problem.n(), m = problem.m();
-  index_.resize(n + m);  // of a root: its component; −1: a free velocity
+  index_.resize(n + m);  // of a root: its component
   of_row.assign(m, -1);
   velocity_pointers.assign(1, 0);
   row_pointers.assign(1, 0);
-  for (std::int32_t j = 0; j < n; ++j) {
-    if (fixed_[j]) continue;
-    const std::int32_t root = parent_[j] = root_of(parent_, j);
-    index_[root] = root == j ? -1 : 0;
-  }
+  const auto component_of = [&](std::int32_t node) {
+    const std::int32_t root = parent_[node] = root_of(parent_, node);
+    if (root == node) {
+      index_[root] = count();
+      velocity_pointers.push_back(0);
+      row_pointers.push_back(0);
+    }
+    return index_[root];
+  };
+  for (const std::int32_t j : coupled_) ++velocity_pointers[component_of(j) + 1];
   for (std::int32_t i = 0; i < m; ++i) {
     if (!enabled_[i]) continue;
-    const std::int32_t root = parent_[n + i] = root_of(parent_, n + i);
-    index_[root] = 0;
+    of_row[i] = component_of(n + i);
+    ++row_pointers[of_row[i] + 1];
   }
-  std::int32_t count = 0;
-  free_velocity.clear();
-  for (std::int32_t node = 0; node < n + m; ++node) {
-    if (node < n ? fixed_[node] : !enabled_[node - n]) continue;
-    if (parent_[node] == node) {
-      // a velocity alone may still have a mass block larger than one entry
-      const bool alone = node < n && index_[node] < 0 && problem.mass.pointers[node + 1] - problem.mass.pointers[node] == 1;
-      index_[node] = alone ? -1 : count++;
-      if (!alone) {
-        velocity_pointers.push_back(0);
-        row_pointers.push_back(0);
-      }
-    }
-    const std::int32_t c = index_[parent_[node]];
-    if (c < 0)
-      free_velocity.push_back(node);
-    else
-      ++(node < n ? velocity_pointers : row_pointers)[c + 1];
-  }
-  for (std::int32_t c = 0; c < count; ++c) {
+  for (std::int32_t c = 0; c < count(); ++c) {
     velocity_pointers[c + 1] += velocity_pointers[c];
     row_pointers[c + 1] += row_pointers[c];
   }
-  velocities.resize(velocity_pointers[count]);
-  rows.resize(row_pointers[count]);
+  velocities.resize(velocity_pointers.back());
+  rows.resize(row_pointers.back());
   // filled from behind, so that the pointers end where they were to begin
-  for (std::int32_t c = count; c > 0; --c) {
+  for (std::int32_t c = count(); c > 0; --c) {
     velocity_pointers[c] = velocity_pointers[c - 1];
     row_pointers[c] = row_pointers[c - 1];
   }
-  for (std::int32_t j = 0; j < n; ++j)
-    if (!fixed_[j] && index_[parent_[j]] >= 0) velocities[velocity_pointers[index_[parent_[j]] + 1]++] = j;
-  for (std::int32_t i = 0; i < m; ++i) {
-    if (!enabled_[i]) continue;
-    of_row[i] = index_[parent_[n + i]];
-    rows[row_pointers[of_row[i] + 1]++] = i;
-  }
+  for (const std::int32_t j : coupled_) velocities[velocity_pointers[index_[parent_[j]] + 1]++] = j;
+  for (std::int32_t i = 0; i < m; ++i)
+    if (of_row[i] >= 0) rows[row_pointers[of_row[i] + 1]++] = i;
 }
 
 }  // namespace mlcp

@@ -9,7 +9,7 @@ namespace mlcp {
 class Components {
  public:
   explicit Components(const Memory& m)
-      : velocity_pointers(m), velocities(m), row_pointers(m), rows(m), free_velocity(m), of_row(m), parent_(m), index_(m), fixed_(m),
+      : velocity_pointers(m), velocities(m), row_pointers(m), rows(m), free_velocity(m), of_row(m), parent_(m), index_(m), coupled_(m), touched_(m), fixed_(m),
         enabled_(m), pattern_(m) {}
 
   Array<std::int32_t> velocity_pointers, velocities;  ///< component → velocities, ascending
@@ -21,6 +21,9 @@ class Components {
   std::int32_t velocity_count(std::int32_t c) const { return velocity_pointers[c + 1] - velocity_pointers[c]; }
   std::int32_t row_count(std::int32_t c) const { return row_pointers[c + 1] - row_pointers[c]; }
 
+  std::span<const std::int32_t> velocities_of(std::int32_t c) const { return velocities.span().subspan(velocity_pointers[c], velocity_count(c)); }
+  std::span<const std::int32_t> rows_of(std::int32_t c) const { return rows.span().subspan(row_pointers[c], row_count(c)); }
+
   /// Finds them, unless those that are there are the problem's.  returns whether it had to.
   /// cost: nearly O(entries of M, J and Σ); a comparison of them where the pattern is known.
   bool update(const Problem& problem, const Mask* enabled);
@@ -28,11 +31,14 @@ class Components {
 
  private:
   bool covers(const Problem& problem, const Mask* enabled) const;
+  void set_free_apart(const Problem& problem);
   void join_all(const Problem& problem);
   void sort(const Problem& problem);
 
   bool known_ = false;
   Array<std::int32_t> parent_, index_;
+  Array<std::int32_t> coupled_;  // dynamic velocities that are not free, ascending
+  Array<std::uint8_t> touched_;  // n: by enabled rows
   Array<std::uint8_t> fixed_;    // n: 1 on prescribed velocities
   Array<std::uint8_t> enabled_;  // m
   PatternCopy pattern_;          // at the last update

@@ -2,6 +2,15 @@
 
 namespace mlcp {
 
+/// The entries of the last row, from `begin` on: a row that comes before its velocities is a column of L as it stands.
+void KktPattern::sort_by_column(std::int32_t begin) {
+  for (auto t = begin + 1; t < static_cast<std::int32_t>(row_columns.size()); ++t)
+    for (auto s = t; s > begin && row_columns[s - 1] > row_columns[s]; --s) {
+      std::swap(row_columns[s - 1], row_columns[s]);
+      std::swap(row_source[s - 1], row_source[s]);
+    }
+}
+
 void KktPattern::build(const Problem& problem, std::span<const std::int32_t> order) {
   const SparseView mass = problem.mass_view(), jacobian = problem.jacobian_view(), sigma = problem.compliance_view();
   n = problem.n();
@@ -24,11 +33,15 @@ void KktPattern::build(const Problem& problem, std::span<const std::int32_t> ord
   row_pointers.push_back(0);
   for (const std::int32_t p : row_position) {
     const std::int32_t i = node[p] - n;
+    bool early = false;
     for (std::int32_t t = jacobian.pointers[i]; t < jacobian.pointers[i + 1]; ++t) {
-      if (position[jacobian.indices[t]] < 0) continue;
-      row_columns.push_back(position[jacobian.indices[t]]);
+      const std::int32_t q = position[jacobian.indices[t]];
+      if (q < 0) continue;
+      row_columns.push_back(q);
       row_source.push_back(t);
+      early |= q > p;
     }
+    if (early) sort_by_column(row_pointers.back());
     for (std::int32_t t = sigma.pointers[i]; t < sigma.pointers[i + 1]; ++t) {
       const std::int32_t q = position[n + sigma.indices[t]];
       if (q == p) diagonal_source[p] = t;

@@ -8,7 +8,7 @@ namespace mlcp {
 struct KktPattern {
   std::int32_t n = 0;                               ///< velocities of the problem: node < n is a velocity
   Array<std::int32_t> node, position;               ///< position → node, node → position or −1
-  Array<std::int32_t> lower_pointers, lower_rows, lower_source;  ///< columns, strictly below the diagonal
+  Array<std::int32_t> lower_pointers, lower_rows, lower_source;  ///< columns, strictly below the diagonal, rows ascending
   Array<std::int32_t> upper_pointers, upper_rows;   ///< columns, strictly above the diagonal
   Array<std::int32_t> diagonal_source;              ///< −1: structurally zero
   Array<std::int32_t> row_position;                 ///< ordinal of a constraint row → its position, ascending
@@ -23,10 +23,11 @@ struct KktPattern {
   std::int32_t rows() const { return static_cast<std::int32_t>(row_position.size()); }
   bool is_row(std::int32_t p) const { return node[p] >= n; }
 
-  /// cost: O(entries of M, J and Σ).
+  /// cost: O(entries of M, J and Σ), and (entries)² of rows that come before their velocities.
   void build(const Problem& problem, std::span<const std::int32_t> order);
 
  private:
+  void sort_by_column(std::int32_t begin);
   Array<std::int32_t> scratch_;
 };
 

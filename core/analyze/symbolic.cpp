@@ -47,6 +47,8 @@ void Symbolic::build(const KktPattern& pattern, const EliminationTree& tree, con
     batch_start[p] = batch_start[p - 1];
     batch_start[p - 1] = -1;
   }
+  batch_end.resize(size);
+  for (std::int32_t p = size - 1; p >= 0; --p) batch_end[p] = batch_start[p] >= 0 ? p + 1 : batch_end[p + 1];
 
   path_entries.resize(size);
   for (std::int32_t p = size - 1; p >= 0; --p)

@@ -23,10 +23,10 @@ struct Symbolic {
   Array<std::int32_t> run_start;
   /// Columns batch_start[p] .. p act on the same rows when p is the last of them: a run, or single columns with equal rows, as those of the contacts
   /// between two bodies are where rows come first. −1: p is not the last.
-  Array<std::int32_t> batch_start;
+  Array<std::int32_t> batch_start, batch_end;
   Array<std::int64_t> path_entries;  ///< of the columns on the path p → root, p's own included: what a toggle of p may touch
   Array<Island> islands;
-  explicit Symbolic(const Memory& m) : parent(m), pointers(m), rows(m), run_end(m), run_start(m), batch_start(m), path_entries(m), islands(m), mark_(m), end_(m) {}
+  explicit Symbolic(const Memory& m) : parent(m), pointers(m), rows(m), run_end(m), run_start(m), batch_start(m), batch_end(m), path_entries(m), islands(m), mark_(m), end_(m) {}
 
   std::int32_t size() const { return static_cast<std::int32_t>(parent.size()); }
   std::int64_t entries() const { return pointers.empty() ? 0 : pointers.back(); }

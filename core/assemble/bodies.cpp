@@ -20,25 +20,30 @@ void write_dense(const double* mass, std::int32_t d, double* out) {
           middle(mass[std::size_t(j) * d + i], mass[std::size_t(i) * d + j]);
 }
 
-void check_sparse_diagonal(const char* name, std::int32_t dimension, const double* diagonal) {
-  for (std::int32_t j = 0; j < dimension; ++j)
-    if (diagonal[j] < 0) throw Error(MLCP_ERROR_ARGUMENT, "%s: diagonal entry %d = %.17g is negative", name, j, diagonal[j]);
+void check_sparse_diagonal(const char* name, std::span<const double> diagonal) {
+  for (std::size_t j = 0; j < diagonal.size(); ++j)
+    if (diagonal[j] < 0) throw Error(MLCP_ERROR_ARGUMENT, "%s: diagonal entry %d = %.17g is negative", name, static_cast<int>(j), diagonal[j]);
 }
 
 void set_sparse_mass(Problem& problem, const Body& body, std::int32_t id, const double* values, std::int64_t count) {
   const std::int64_t slot = problem.mass_slot_start[id];
   check_length("count", count, (problem.mass_slot_start[id + 1] - slot) / 2);
-  check_finite("mass", values, count);
   const std::int32_t* pointers = problem.mass.pointers.data() + body.offset;
   const std::int32_t first = pointers[0], entries = pointers[body.dimension] - first;
+  const SymmetricPattern pattern{body.dimension, pointers, problem.mass.indices.data() + first, body.offset,
+                                 problem.mass_slot.data() + slot, count, body.sparse - 1};
+  double* const mass = problem.mass.values.data() + first;
+  if (entries == count && mirrored(pattern, values)) {
+    std::copy_n(values, count, mass);
+    return;
+  }
+  check_finite("mass", values, count);
   Array<double>& scratch = problem.work.value;
   scratch.resize(std::size_t(body.dimension) + entries);
-  const SymmetricPattern pattern{body.dimension, problem.mass.indices.data() + first, body.offset,
-                                 problem.mass_slot.data() + slot, count, body.sparse - 1};
   const std::span<double> out = scratch.span().subspan(body.dimension);
   expand_values("mass", pattern, values, scratch.data(), out);
-  check_sparse_diagonal("mass", body.dimension, scratch.data());
-  std::copy(out.begin(), out.end(), problem.mass.values.data() + first);
+  check_sparse_diagonal("mass", scratch.span().first(body.dimension));
+  std::copy(out.begin(), out.end(), mass);
 }
 
 }  // namespace
@@ -85,7 +90,7 @@ std::int32_t body_add_sparse(Problem& problem, std::int32_t dimension, const std
   if (dimension < 1) throw Error(MLCP_ERROR_ARGUMENT, "dimension = %d is not positive", dimension);
   EditWorkspace& work = problem.work;
   expand({dimension, column_pointers, row_indices, values, triangle}, work);
-  check_sparse_diagonal("values", dimension, work.value.data());
+  check_sparse_diagonal("values", work.value.span());
   choose_ids(problem, 1);
   open_bodies(problem, {dimension, std::int64_t(work.expanded.values.size()), std::int64_t(work.slot.size())});
 

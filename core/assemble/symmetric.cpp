@@ -43,6 +43,19 @@ bool take_sorted(const SymmetricInput& a, std::int32_t entries, EditWorkspace& w
   if (a.triangle != MLCP_FULL || a.size == 0) return false;  // of a size of 0, column_pointers may be null
   const std::int32_t *start = a.column_pointers, *rows = a.row_indices;
   std::int32_t* slot = work.slot.data();
+  const auto taken = [&] {
+    work.expanded.pointers.assign({start, std::size_t(a.size) + 1});
+    work.expanded.indices.assign({rows, std::size_t(entries)});
+    work.expanded.values.resize(entries);
+    return true;
+  };
+  std::int32_t off = entries - a.size;  // 0: a diagonal matrix
+  if (off == 0)
+    for (std::int32_t j = 0; j < a.size; ++j) off |= (start[j] ^ j) | (rows[j] ^ j);
+  if (off == 0) {
+    for (std::int32_t e = 0; e < entries; ++e) slot[2 * e] = slot[2 * e + 1] = e;
+    return taken();
+  }
   work.index.resize(a.size);
   std::int32_t* const next = work.index.data();  // of each column: its first entry whose mirror was not met
   std::copy(start, start + a.size, next);
@@ -64,10 +77,7 @@ bool take_sorted(const SymmetricInput& a, std::int32_t entries, EditWorkspace& w
       slot[2 * mirror + 1] = e;
     }
   }
-  work.expanded.pointers.assign({start, std::size_t(a.size) + 1});
-  work.expanded.indices.assign({rows, std::size_t(entries)});
-  work.expanded.values.resize(entries);
-  return true;
+  return taken();
 }
 
 /// slot[2e + 1]: the caller's entry (j, i) for his entry e at (i, j); none where there is none.
@@ -132,16 +142,13 @@ void place(const SymmetricInput& a, EditWorkspace& work) {
     }
 }
 
-/// What take_sorted has found, exactly symmetric: the values as they are.  false: it is not so, and what is in `out` is of no use.
-bool take_mirrored(const SymmetricPattern& a, const double* values, double* diagonal, double* out) {
-  if (a.triangle != MLCP_FULL) return false;
-  for (std::int64_t e = 0; e < a.count; ++e) {
-    const std::int32_t mirror = a.slot[2 * e + 1];
-    if (a.slot[2 * e] != e || values[e] != values[mirror]) return false;
-    out[e] = values[e];
-    if (mirror == e) diagonal[a.indices[e] - a.base] = values[e];
-  }
-  return true;
+/// Of a diagonal matrix: none is negative, all are finite.
+bool mirrored_diagonal(const SymmetricPattern& a, const double* values) {
+  std::int32_t off = 0;  // two loops, each over entries of one size
+  for (std::int32_t e = 0; e < a.count; ++e) off |= a.slot[2 * e + 1] ^ e;
+  bool finite = off == 0;
+  for (std::int64_t e = 0; e < a.count; ++e) finite &= (values[e] >= 0) & (values[e] < infinity);
+  return finite;
 }
 
 }  // namespace
@@ -160,16 +167,38 @@ void expand(const SymmetricInput& input, EditWorkspace& work) {
     }
     place(input, work);
   }
+  const SymmetricPattern pattern{input.size, work.expanded.pointers.data(), work.expanded.indices.data(), 0, work.slot.data(), entries, input.triangle};
+  work.value.clear();
+  if (static_cast<std::int64_t>(work.expanded.values.size()) == entries && mirrored(pattern, input.values)) {
+    std::copy_n(input.values, entries, work.expanded.values.begin());
+    return;
+  }
   check_finite("values", input.values, entries);
   work.value.resize(input.size);
-  const SymmetricPattern pattern{input.size, work.expanded.indices.data(), 0, work.slot.data(), entries, input.triangle};
   expand_values("values", pattern, input.values, work.value.data(), work.expanded.values.span());
+}
+
+bool mirrored(const SymmetricPattern& a, const double* values) {
+  if (a.triangle != MLCP_FULL) return false;
+  if (a.count == a.size && mirrored_diagonal(a, values)) return true;
+  std::int64_t paired = 0;
+  for (std::int32_t j = 0; j < a.size; ++j) {
+    const std::int32_t begin = a.pointers[j] - a.pointers[0], end = a.pointers[j + 1] - a.pointers[0];
+    std::int32_t e = begin, mirror = begin;
+    double off = 0;  // 0 is what is left of finite, equal pairs
+    for (; e < end && (mirror = a.slot[2 * e + 1]) < e; ++e) off += std::abs(values[e] - values[mirror]);
+    if (!(off == 0)) return false;
+    paired += 2 * (e - begin);
+    if (e == end || mirror > e) continue;
+    if (!(values[e] >= 0 && values[e] < infinity)) return false;
+    ++paired;
+  }
+  return paired == a.count;
 }
 
 void expand_values(const char* name, const SymmetricPattern& a, const double* values, double* diagonal,
                    std::span<double> out) {
   std::fill(diagonal, diagonal + a.size, 0.0);
-  if (static_cast<std::int64_t>(out.size()) == a.count && take_mirrored(a, values, diagonal, out.data())) return;
   constexpr double missing = std::numeric_limits<double>::quiet_NaN();  // the caller's own values are finite
   if (static_cast<std::int64_t>(out.size()) > a.count) std::fill(out.begin(), out.end(), missing);
   for (std::int64_t e = 0; e < a.count; ++e) {

@@ -13,13 +13,14 @@ struct SymmetricInput {
 };
 
 /// Both triangles, in work.expanded: the caller's entries in the caller's order within a column, then the mirrors that are
-/// missing. work.slot as Problem::mass_slot.
+/// missing. work.slot as Problem::mass_slot. work.value: the diagonal; empty if nothing negative is known to be in it.
 /// cost:  O(entries).      fails: Error, bad_alloc; nothing but the workspace has changed.
 void expand(const SymmetricInput& input, EditWorkspace& work);
 
-/// Where the values of an expanded matrix go. indices: of its rows, all plus `base`.
+/// Where the values of an expanded matrix go. pointers: of its columns, all plus the first; indices: of its rows, all plus `base`.
 struct SymmetricPattern {
   std::int32_t size;
+  const std::int32_t* pointers;
   const std::int32_t* indices;
   std::int32_t base;
   const std::int32_t* slot;
@@ -27,7 +28,12 @@ struct SymmetricPattern {
   mlcp_triangle triangle;
 };
 
-/// out: the expanded values, the two triangles made equal.      diagonal: size doubles to work in.
+/// Whether the caller's values are the expanded ones as they stand, which most callers hand in: finite, columns ascending,
+/// the two triangles equal, nothing negative on the diagonal.  before: there are as many of both, so that each has its place.
+/// cost: a step for every other entry, which is all that a new mass has to pay beside the copy.
+bool mirrored(const SymmetricPattern& pattern, const double* values);
+
+/// out: the expanded values, the two triangles made equal.      diagonal: size doubles; whatever is negative there is found in them.
 /// fails: Error on the argument `name`, when they differ by more than rounding or one of them is missing and not 0.
 void expand_values(const char* name, const SymmetricPattern& pattern, const double* values, double* diagonal,
                    std::span<double> out);

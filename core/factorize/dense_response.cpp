@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "factorize/dot.h"
 
@@ -190,7 +191,7 @@ void DenseResponse::load_active(DenseIsland& s, std::int32_t b) {
   double* entry = s.active.block(b);
   std::int32_t begin = columns;
   if (count == 4 && four[3] == four[0] + 3) {
-    for (std::int32_t q = 0; q < columns; ++q, entry += 4) std::copy_n(s.row_of_a(s.member[q]) + four[0], 4, entry);
+    for (std::int32_t q = 0; q < columns; ++q, entry += 4) std::memcpy(entry, s.row_of_a(s.member[q]) + four[0], 4 * sizeof(double));
   } else {
     for (std::int32_t q = 0; q < columns; ++q, entry += 4) {
       const double* const a = s.row_of_a(s.member[q]);

@@ -4,6 +4,16 @@
 #include <cmath>
 
 namespace mlcp {
+namespace {
+
+/// What a batch does to so many rows is found at once: Kernels::products.
+constexpr std::int64_t least_rows = 4, most_rows = 16;
+/// Columns summed at once.
+constexpr std::int32_t most_columns = 32;
+
+std::int64_t stride_of(std::int64_t rows) { return (rows + 3) / 4 * 4; }
+
+}  // namespace
 
 void Factor::prepare(const KktPattern& pattern, const Symbolic& symbolic, const KktValues& values) {
   pattern_ = &pattern;
@@ -18,97 +28,181 @@ void Factor::prepare(const KktPattern& pattern, const Symbolic& symbolic, const 
   next_.resize(size);
   head_.resize(size);
   cursor_.resize(size);
+  place_.resize(size);
   y_.assign(size, 0.0);
   gathered_.resize(size);
+  block_pointers_.resize(size);
+  std::int64_t room = 0;
+  for (std::int32_t p = 0; p < size; ++p) {
+    const std::int64_t rows = symbolic.pointers[p + 1] - symbolic.pointers[p];
+    const bool multiplied = symbolic.batch_start[p] >= 0 && symbolic.batch_start[p] < p && rows >= least_rows && rows <= most_rows;
+    block_pointers_[p] = multiplied ? room : -1;
+    if (multiplied) room += stride_of(rows) * stride_of(rows);
+  }
+  blocks_.resize(room);
   mark_.assign(size, -1);
   reach_.resize(size);
   failed_.resize(size);
 }
 
-/// Left-looking by batches. Column p subtracts what earlier columns of its own run and whole earlier batches do to it: their columns share the
-/// rows from p on, so that Σ_k C(p:,k) c_pk / d_k is summed densely and scattered once.
+/// Left-looking by runs. What earlier batches do to the columns of a run is found batch by batch: the columns of a batch share their rows, so that
+/// Σ_k C(:,k) c_pk / d_k is summed densely, and where its entries stand in the run is looked up once for all columns of the run. Batches that act on few rows
+/// have that sum ready for all of them. Then the run is eliminated within itself, without indices.
 FactorStatus Factor::factorize(const Island& island, const std::uint8_t* wanted, double drop, std::int64_t& work) {
   std::fill(head_.begin() + island.first, head_.begin() + island.last, -1);
   for (std::int32_t p = island.first; p < island.last; ++p) in_[p] = !pattern_->is_row(p) || wanted[p];
   Poll poll = poll_;
   std::int64_t asked = work;
-  for (std::int32_t p = island.first; p < island.last; ++p) {
-    poll.spend(work - asked);
-    asked = work;
-    const bool row = pattern_->is_row(p);
-    const std::int64_t begin = symbolic_->pointers[p], end = symbolic_->pointers[p + 1];
-    double d = kkt_->factored[p];
-    if (in_[p]) {
-      for (std::int32_t t = pattern_->lower_pointers[p]; t < pattern_->lower_pointers[p + 1]; ++t) {
-        const std::int32_t q = pattern_->lower_rows[t];
-        if (in_[q]) y_[q] = kkt_->lower[t];
+  for (std::int32_t first = island.first; first < island.last; first = symbolic_->run_end[first]) {
+    load(first);
+    for (std::int32_t batch = head_[first]; batch >= 0;) {
+      const std::int32_t after = next_[batch];
+      subtract(batch, first, work);
+      batch = after;
+    }
+    for (std::int32_t p = first; p < symbolic_->run_end[first]; ++p) {
+      poll.spend(work - asked);
+      asked = work;
+      if (!eliminate(first, p, drop, work)) {
+        failed_[island.first] = p;
+        return FactorStatus::not_positive_definite;
       }
-      if (const std::int32_t first = symbolic_->run_start[p]; first < p) subtract(first, p, end - begin, p, d, work);
-    }
-    // batches whose next row is p: the last column of each has the rows that all its columns share
-    for (std::int32_t last = head_[p]; last >= 0;) {
-      const std::int32_t after = next_[last];
-      const std::int64_t t = cursor_[last]++, tail = symbolic_->pointers[last + 1] - t - 1;
-      if (in_[p]) subtract(symbolic_->batch_start[last], last + 1, tail, p, d, work);
-      if (tail > 0) {
-        const std::int32_t q = symbolic_->rows[cursor_[last]];
-        next_[last] = head_[q];
-        head_[q] = last;
-      }
-      last = after;
-    }
-    bool live = in_[p];
-    if (live && !row && !(d > 0)) {
-      failed_[island.first] = p;
-      for (std::int64_t t = begin; t < end; ++t) y_[symbolic_->rows[t]] = 0;
-      return FactorStatus::not_positive_definite;
-    }
-    if (live && row && !(std::abs(d) > drop * kkt_->a[pattern_->row_ordinal[p]])) {
-      live = false;
-      in_[p] = 0;
-      clear_row(p, work);
-    }
-    for (std::int64_t t = begin; t < end; ++t) {
-      values_[t] = live ? y_[symbolic_->rows[t]] : 0;
-      y_[symbolic_->rows[t]] = 0;
-    }
-    pivot_[p] = live ? d : 0;
-    inverse_[p] = live ? 1 / d : 0;
-    if (symbolic_->batch_start[p] >= 0 && begin < end) {
-      cursor_[p] = begin;
-      next_[p] = head_[symbolic_->rows[begin]];
-      head_[symbolic_->rows[begin]] = p;
+      if (symbolic_->batch_start[p] >= 0) finish_batch(p, work);
     }
   }
   return FactorStatus::ok;
 }
 
-/// Columns first .. last − 1 of one batch, which all have row p and behind it the same `tail` rows: y −= Σ_k C(tail,k) c_pk / d_k, and d for
-/// row p itself.
-void Factor::subtract(std::int32_t first, std::int32_t last, std::int64_t tail, std::int32_t p, double& d, std::int64_t& work) {
-  constexpr std::int32_t most = 32;  // columns summed at once
-  const std::int64_t end = symbolic_->pointers[last];
-  const std::int32_t* rows = symbolic_->rows.data() + end - tail;
+/// K's entries in the columns of a run; place_[row] counts the rows of its first column, unless nothing acts on it and it has K's own pattern: then they
+/// are not looked up.
+void Factor::load(std::int32_t first) {
+  const std::int32_t last = symbolic_->run_end[first];
+  const Stretch run = stretch(first, last);
+  const bool as_in_k = head_[first] < 0 && last == first + 1 && run.count == pattern_->lower_pointers[last] - pattern_->lower_pointers[first];
+  if (!as_in_k)
+    for (std::int32_t i = 0; i < run.count; ++i) place_[run.rows[i]] = i;
+  for (std::int32_t p = first; p < last; ++p) {
+    const std::int32_t* row = pattern_->lower_rows.data() + pattern_->lower_pointers[p];
+    const double* entry = kkt_->lower.data() + pattern_->lower_pointers[p];
+    const std::int32_t entries = pattern_->lower_pointers[p + 1] - pattern_->lower_pointers[p];
+    double* column = values_.data() + symbolic_->pointers[p];
+    pivot_[p] = in_[p] ? kkt_->factored[p] : 0;
+    if (in_[p] && as_in_k) {
+      for (std::int32_t i = 0; i < entries; ++i) column[i] = in_[row[i]] ? entry[i] : 0;
+      continue;
+    }
+    std::fill(column, values_.data() + symbolic_->pointers[p + 1], 0.0);
+    if (!in_[p]) continue;
+    column -= p - first;
+    for (std::int32_t i = 0; i < entries; ++i)
+      if (in_[row[i]]) column[place_[row[i]]] = entry[i];
+  }
+}
+
+/// What the batch that ends with column `batch` does to the run that begins with `first`; it then waits for the next run that it acts on.
+void Factor::subtract(std::int32_t batch, std::int32_t first, std::int64_t& work) {
+  const std::int64_t begin = symbolic_->pointers[batch], rows = symbolic_->pointers[batch + 1] - begin;
+  const std::int32_t* row = symbolic_->rows.data() + begin;
+  std::int64_t a = cursor_[batch] - begin;
+  for (const std::int32_t last = symbolic_->run_end[first]; a < rows && row[a] < last; ++a) {
+    const std::int32_t p = row[a];
+    if (!in_[p]) continue;
+    double* column = values_.data() + symbolic_->pointers[p] - (p - first);
+    const auto scatter = [&](const double* sum, double factor) {  // of the rows behind p
+      for (std::int64_t b = a + 1; b < rows; ++b) column[place_[row[b]]] -= sum[b - a - 1] * factor;
+    };
+    if (symbolic_->batch_start[batch] == batch) {
+      const double c = values_[begin + a], factor = c * inverse_[batch];
+      if (c == 0) continue;
+      pivot_[p] -= c * factor;
+      scatter(values_.data() + begin + a + 1, factor);
+      work += rows - a;
+    } else if (block_pointers_[batch] >= 0) {
+      const double* product = blocks_.data() + block_pointers_[batch] + stride_of(rows) * a + a;
+      pivot_[p] -= product[0];
+      scatter(product + 1, 1.0);
+    } else {
+      for_each_sum(symbolic_->batch_start[batch], batch + 1, rows - a - 1, p, work, scatter);
+    }
+  }
+  cursor_[batch] = begin + a;
+  wait(batch);
+}
+
+/// Columns first .. last − 1 of one batch, which all have row p and behind it the same `tail` rows: d_p −= Σ_k c_pk² / d_k, and visit(sum, factor) with
+/// Σ_k C(tail,k) c_pk / d_k = factor · sum for a few columns at a time.
+template <class Visit>
+void Factor::for_each_sum(std::int32_t first, std::int32_t last, std::int64_t tail, std::int32_t p, std::int64_t& work, Visit visit) {
+  const double* column[most_columns];
+  double factor[most_columns];
   double* sum = gathered_.data() + p;  // a column from p on has no more rows than there are positions behind p
-  const double* column[most];
-  double factor[most];
   while (first < last) {
     std::int32_t count = 0;
-    for (; first < last && count < most; ++first) {
+    for (; first < last && count < most_columns; ++first) {
       const double* c = values_.data() + symbolic_->pointers[first + 1] - tail;
       if (!in_[first] || c[-1] == 0) continue;
       factor[count] = c[-1] * inverse_[first];
-      d -= c[-1] * factor[count];
+      pivot_[p] -= c[-1] * factor[count];
       column[count++] = c;
     }
     work += count * (tail + 1);
     if (count == 0 || tail == 0) continue;
-    if (count == 1) {
-      for (std::int64_t i = 0; i < tail; ++i) y_[rows[i]] -= column[0][i] * factor[0];
-      continue;
+    if (count > 1) kernels_->combine(tail, count, column, factor, sum);
+    visit(count > 1 ? sum : column[0], count > 1 ? 1.0 : factor[0]);
+  }
+}
+
+/// Column p within its run, and its pivot.  false: it is that of a velocity and not positive.
+bool Factor::eliminate(std::int32_t first, std::int32_t p, double drop, std::int64_t& work) {
+  double* column = values_.data() + symbolic_->pointers[p];
+  const std::int64_t rows = symbolic_->pointers[p + 1] - symbolic_->pointers[p];
+  if (in_[p] && first < p)
+    for_each_sum(first, p, rows, p, work, [&](const double* sum, double factor) {
+      for (std::int64_t i = 0; i < rows; ++i) column[i] -= sum[i] * factor;
+    });
+  const double d = pivot_[p];
+  if (in_[p] && !pattern_->is_row(p) && !(d > 0)) return false;
+  if (in_[p] && pattern_->is_row(p) && !(std::abs(d) > drop * kkt_->a[pattern_->row_ordinal[p]])) {
+    in_[p] = 0;
+    clear_row(p, work);
+    std::fill_n(column, rows, 0.0);
+  }
+  pivot_[p] = in_[p] ? d : 0;
+  inverse_[p] = in_[p] ? 1 / d : 0;
+  return true;
+}
+
+/// before: its last column p is eliminated.
+void Factor::finish_batch(std::int32_t p, std::int64_t& work) {
+  if (symbolic_->batch_start[p] == p && !in_[p]) return;  // does nothing to anyone
+  cursor_[p] = symbolic_->pointers[p];
+  if (block_pointers_[p] >= 0) multiply_out(p, work);
+  wait(p);
+}
+
+void Factor::wait(std::int32_t batch) {
+  if (cursor_[batch] == symbolic_->pointers[batch + 1]) return;
+  const std::int32_t run = symbolic_->run_start[symbolic_->rows[cursor_[batch]]];
+  next_[batch] = head_[run];
+  head_[run] = batch;
+}
+
+/// Σ_k c_k c_kᵀ / d_k of the batch that ends with column `last`, for the rows that its columns share.
+void Factor::multiply_out(std::int32_t last, std::int64_t& work) {
+  const std::int64_t rows = symbolic_->pointers[last + 1] - symbolic_->pointers[last], stride = stride_of(rows);
+  double* block = blocks_.data() + block_pointers_[last];
+  std::fill_n(block, stride * stride, 0.0);
+  const double* column[most_columns];
+  double inverse[most_columns];
+  for (std::int32_t first = symbolic_->batch_start[last]; first <= last;) {
+    std::int32_t count = 0;
+    for (; first <= last && count < most_columns; ++first) {
+      if (!in_[first]) continue;
+      column[count] = values_.data() + symbolic_->pointers[first + 1] - rows;
+      inverse[count++] = inverse_[first];
     }
-    kernels_->combine(tail, count, column, factor, sum);
-    for (std::int64_t i = 0; i < tail; ++i) y_[rows[i]] -= sum[i];
+    kernels_->products(rows, count, column, inverse, block);
+    work += count * rows * (rows + 1) / 2;
   }
 }
 
@@ -162,6 +256,12 @@ void Factor::clear_row(std::int32_t p, std::int64_t& work) {
 Stretch Factor::stretch(std::int32_t first, std::int32_t last) const {
   const std::int64_t start = symbolic_->pointers[first];
   return {first, last, symbolic_->pointers[first + 1] - start, symbolic_->rows.data() + start};
+}
+
+Stretch Factor::batch(std::int32_t first, std::int32_t last) const {
+  Stretch s = stretch(first, last);
+  s.equal = symbolic_->run_end[first] < last;
+  return s;
 }
 
 FactorArrays Factor::arrays() const {
@@ -234,16 +334,16 @@ void Factor::solve(const Island& island, double* x, std::int64_t& work) const {
   for (std::int32_t j = island.first; j < island.last; ++j)
     if (!in_[j]) x[j] = 0;
   const FactorArrays f = arrays();
-  for (std::int32_t first = island.first; first < island.last; first = symbolic_->run_end[first])
-    work += kernels_->forward(f, stretch(first, symbolic_->run_end[first]), x);
+  for (std::int32_t first = island.first; first < island.last; first = symbolic_->batch_end[first])
+    work += kernels_->forward(f, batch(first, symbolic_->batch_end[first]), x);
   backward_all(island, x, work);
 }
 
 void Factor::backward_all(const Island& island, double* x, std::int64_t& work) const {
   const FactorArrays f = arrays();
   for (std::int32_t last = island.last, first; last > island.first; last = first) {
-    first = symbolic_->run_start[last - 1];
-    work += kernels_->backward(f, stretch(first, last), x);
+    first = symbolic_->batch_start[last - 1];
+    work += kernels_->backward(f, batch(first, last), x);
   }
 }
 

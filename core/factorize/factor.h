@@ -20,7 +20,7 @@ enum class FactorStatus {
 /// invariant, per fresh island: Σ_k C(:,k) C(:,k)ᵀ / d_k = K on the nodes that are in, up to rounding.
 class Factor {
  public:
-  explicit Factor(const Memory& m) : values_(m), pivot_(m), inverse_(m), in_(m), next_(m), head_(m), cursor_(m), y_(m), gathered_(m), mark_(m), reach_(m), failed_(m) {}
+  explicit Factor(const Memory& m) : values_(m), pivot_(m), inverse_(m), in_(m), next_(m), head_(m), cursor_(m), place_(m), y_(m), gathered_(m), block_pointers_(m), blocks_(m), mark_(m), reach_(m), failed_(m) {}
 
   /// Sizes everything for this pattern. allocates; all islands are stale afterwards.
   void prepare(const KktPattern& pattern, const Symbolic& symbolic, const KktValues& values);
@@ -63,6 +63,7 @@ class Factor {
  private:
   std::int32_t reach(std::int32_t p, std::int32_t below, std::int32_t last);
   Stretch stretch(std::int32_t first, std::int32_t last) const;
+  Stretch batch(std::int32_t first, std::int32_t last) const;
   FactorArrays arrays() const;
   void backward_all(const Island& island, double* x, std::int64_t& work) const;
   template <class Visit>
@@ -71,7 +72,14 @@ class Factor {
   std::int64_t entry(std::int32_t column, std::int32_t row) const;
   FactorStatus rank_one(std::int32_t p, double sigma, std::int64_t& work);
   void clear_row(std::int32_t p, std::int64_t& work);
-  void subtract(std::int32_t first, std::int32_t last, std::int64_t tail, std::int32_t p, double& d, std::int64_t& work);
+  void load(std::int32_t first);
+  void subtract(std::int32_t batch, std::int32_t first, std::int64_t& work);
+  template <class Visit>
+  void for_each_sum(std::int32_t first, std::int32_t last, std::int64_t tail, std::int32_t p, std::int64_t& work, Visit visit);
+  bool eliminate(std::int32_t first, std::int32_t p, double drop, std::int64_t& work);
+  void finish_batch(std::int32_t p, std::int64_t& work);
+  void wait(std::int32_t batch);
+  void multiply_out(std::int32_t last, std::int64_t& work);
 
   const Kernels* kernels_ = &kernels_for_this_cpu();
   const KktPattern* pattern_ = nullptr;
@@ -81,10 +89,13 @@ class Factor {
   Array<double> values_;             // C, as Symbolic::rows
   Array<double> pivot_, inverse_;    // d and 1/d; 1/d = 0 for what is out
   Array<std::uint8_t> in_;
-  Array<std::int32_t> next_, head_;  // batches whose next row is p, while factoring
-  Array<std::int64_t> cursor_;
+  Array<std::int32_t> next_, head_;  // batches, by last column, that act next on the run that begins with p, while factoring
+  Array<std::int64_t> cursor_;       // their next row
+  Array<std::int32_t> place_;        // row → its place in the first column of the run at hand
   Array<double> y_;                  // 0 between calls
   Array<double> gathered_;           // workspace of the kernels
+  Array<std::int64_t> block_pointers_;  // where the products of a batch stand, by its last column; −1: they are summed anew for every row
+  Array<double> blocks_;
   Array<std::int32_t> mark_, reach_; // mark_ is −1 between calls
   Array<std::int32_t> failed_;       // by island's first position
 };

@@ -13,13 +13,13 @@ namespace {
 /// Four doubles, one AVX register or two of SSE2: the same sums in the same order.
 typedef double Four __attribute__((vector_size(32), aligned(8)));
 
-/// p[0] .. p[rest − 1] and zeros, rest < 4, without a branch to mispredict where the CPU has masked loads.
+/// p[0] .. p[rest − 1], at most four, and zeros, without a branch to mispredict where the CPU has masked loads.
 inline void load_part(const double* p, std::int64_t rest, Four& to) {
 #if defined(__AVX2__)
   const __m256i lane = _mm256_set_epi64x(3, 2, 1, 0);
   to = reinterpret_cast<Four>(_mm256_maskload_pd(p, _mm256_cmpgt_epi64(_mm256_set1_epi64x(rest), lane)));
 #else
-  to = Four{rest > 0 ? p[0] : 0, rest > 1 ? p[1] : 0, rest > 2 ? p[2] : 0, 0};
+  to = Four{rest > 0 ? p[0] : 0, rest > 1 ? p[1] : 0, rest > 2 ? p[2] : 0, rest > 3 ? p[3] : 0};
 #endif
 }
 
@@ -79,6 +79,55 @@ void combine(std::int64_t count, std::int32_t columns, const double* const* c, c
   }
 }
 
+/// Two rows of products(), V vectors each: the sums over columns of f c, f by row and column.
+template <int V>
+inline void add_to_rows(std::int32_t columns, const Four* panel, const double* f, double* first, double* second) {
+  Four a[V], b[V];
+#pragma GCC unroll 4
+  for (int v = 0; v < V; ++v) {
+    a[v] = reinterpret_cast<const Four*>(first)[v];
+    b[v] = reinterpret_cast<const Four*>(second)[v];
+  }
+  for (std::int32_t j = 0; j < columns; ++j, panel += 4, f += 16)
+#pragma GCC unroll 4
+    for (int v = 0; v < V; ++v) {
+      a[v] += panel[v] * f[0];
+      b[v] += panel[v] * f[1];
+    }
+#pragma GCC unroll 4
+  for (int v = 0; v < V; ++v) {
+    reinterpret_cast<Four*>(first)[v] = a[v];
+    reinterpret_cast<Four*>(second)[v] = b[v];
+  }
+}
+
+void products(std::int64_t count, std::int32_t columns, const double* const* c, const double* inverse, double* block) {
+  constexpr std::int32_t most = 16;  // columns at a time
+  Four panel[4 * most], scaled[4 * most];
+  const std::int64_t vectors = (count + 3) / 4, stride = 4 * vectors;
+  for (std::int32_t k = 0; k < columns; k += most) {
+    const std::int32_t some = columns - k < most ? columns - k : most;
+    for (std::int32_t j = 0; j < some; ++j)
+      for (std::int64_t v = 0; v < vectors; ++v) {
+        Four entries;
+        load_part(c[k + j] + 4 * v, count - 4 * v, entries);
+        panel[4 * j + v] = entries;
+        scaled[4 * j + v] = entries * inverse[k + j];
+      }
+    for (std::int64_t a = 0; a < stride; a += 2) {
+      const double* f = reinterpret_cast<const double*>(scaled) + a;
+      const std::int64_t v = a / 4;
+      double *first = block + stride * a + 4 * v, *second = first + stride;
+      switch (vectors - v) {
+        case 4: add_to_rows<4>(some, panel + v, f, first, second); break;
+        case 3: add_to_rows<3>(some, panel + v, f, first, second); break;
+        case 2: add_to_rows<2>(some, panel + v, f, first, second); break;
+        default: add_to_rows<1>(some, panel + v, f, first, second);
+      }
+    }
+  }
+}
+
 std::int64_t forward(const FactorArrays& f, const Stretch& s, double* y) {
   if (s.last - s.first == 1) {
     const std::int32_t j = s.first;
@@ -92,7 +141,7 @@ std::int64_t forward(const FactorArrays& f, const Stretch& s, double* y) {
   double* dense = f.gathered + s.first;
   gather(s.count, s.rows, y, dense);
   for (std::int32_t j = s.first; j < s.last; ++j) {
-    const std::int64_t k = j - s.first;
+    const std::int64_t k = s.equal ? 0 : j - s.first;
     const double yj = k ? dense[k - 1] : y[j];
     if (!f.in[j] || yj == 0) continue;
     subtract(s.count - k, f.values + f.pointers[j], yj * f.inverse[j], dense + k);
@@ -102,7 +151,7 @@ std::int64_t forward(const FactorArrays& f, const Stretch& s, double* y) {
   return touched;
 }
 
-/// The last step of a block of columns j, j − 1, … j − B + 1, whose sums over what lies behind them are done: their triangle.
+/// The last step of a block of nested columns j, j − 1, … j − B + 1, whose sums over what lies behind them are done: their triangle.
 /// c[b] belongs to column j − b; entry t of it, from the block's first row on, to column j − b + 1 + t.
 template <int B>
 inline void backward_triangle(const FactorArrays& f, std::int32_t j, const double* const* c, const double* sum, double* x) {
@@ -117,19 +166,19 @@ inline void backward_triangle(const FactorArrays& f, std::int32_t j, const doubl
 
 inline double in_order(const Four& s) { return (s[0] + s[2]) + (s[1] + s[3]); }
 
-/// A stretch of B ≤ 4 columns: x is gathered into registers. Columns that are out are zero and have 1/d = 0: they cost less than the
+/// B ≤ 4 columns, the last is j: x is gathered into registers. Columns that are out are zero and have 1/d = 0: they cost less than the
 /// branches around them.
-template <int B>
-void backward_short(const FactorArrays& f, const Stretch& s, double* x) {
-  const std::int32_t j = s.last - 1;
-  const std::int64_t tail = s.count - (B - 1);
-  const std::int32_t* rows = s.rows + (B - 1);
+template <int B, bool equal>
+void backward_short(const FactorArrays& f, const Stretch& s, std::int32_t j, double* x) {
+  constexpr int behind_first = equal ? 0 : B - 1;
+  const std::int64_t tail = s.count - behind_first;
+  const std::int32_t* rows = s.rows + behind_first;
   const double *c[B], *behind[B];
   Four sums[B];
 #pragma GCC unroll 4
   for (int b = 0; b < B; ++b) {
     c[b] = f.values + f.pointers[j - b];
-    behind[b] = c[b] + b;
+    behind[b] = c[b] + (equal ? 0 : b);
     sums[b] = Four{0, 0, 0, 0};
   }
   std::int64_t i = 0;
@@ -151,7 +200,20 @@ void backward_short(const FactorArrays& f, const Stretch& s, double* x) {
   double sum[B];
 #pragma GCC unroll 4
   for (int b = 0; b < B; ++b) sum[b] = in_order(sums[b]);
-  backward_triangle<B>(f, j, c, sum, x);
+  if constexpr (equal)
+    for (int b = 0; b < B; ++b) x[j - b] = f.inverse[j - b] * (x[j - b] - sum[b]);
+  else
+    backward_triangle<B>(f, j, c, sum, x);
+}
+
+template <bool equal>
+void backward_few(const FactorArrays& f, const Stretch& s, std::int32_t j, std::int32_t columns, double* x) {
+  switch (columns) {
+    case 1: backward_short<1, equal>(f, s, j, x); break;
+    case 2: backward_short<2, equal>(f, s, j, x); break;
+    case 3: backward_short<3, equal>(f, s, j, x); break;
+    case 4: backward_short<4, equal>(f, s, j, x); break;
+  }
 }
 
 /// Columns j, j − 1, … j − B + 1 of a longer stretch. dense[i] is x of row i of the stretch. The four that the block before has just written
@@ -187,12 +249,15 @@ std::int64_t backward(const FactorArrays& f, const Stretch& s, double* x) {
   bool any = false;
   for (std::int32_t j = s.first; j < s.last; ++j) any |= f.in[j] != 0;
   if (!any) return 0;
-  const std::int64_t columns = s.last - s.first, touched = columns * s.count - columns * (columns - 1) / 2;
-  switch (columns) {
-    case 1: backward_short<1>(f, s, x); return touched;
-    case 2: backward_short<2>(f, s, x); return touched;
-    case 3: backward_short<3>(f, s, x); return touched;
-    case 4: backward_short<4>(f, s, x); return touched;
+  const std::int32_t columns = s.last - s.first;
+  if (s.equal) {
+    for (std::int32_t left = columns; left > 0; left -= 4) backward_few<true>(f, s, s.first + left - 1, left < 4 ? left : 4, x);
+    return columns * s.count;
+  }
+  const std::int64_t touched = columns * s.count - std::int64_t{columns} * (columns - 1) / 2;
+  if (columns <= 4) {
+    backward_few<false>(f, s, s.last - 1, columns, x);
+    return touched;
   }
   double* dense = f.gathered + s.first;
   gather(s.count, s.rows, x, dense);

@@ -5,7 +5,7 @@
 
 namespace mlcp {
 
-const Kernels portable_kernels{forward,       combine,        backward,       rank_one,    panel_forward, block_eliminate,
+const Kernels portable_kernels{forward,       combine,        products,       backward,    rank_one,      panel_forward, block_eliminate,
                                block_forward, block_backward, panel_subtract, panel_scale, panel_product, sweep};
 
 }  // namespace mlcp

@@ -6,11 +6,12 @@
 namespace mlcp {
 
 /// Columns first .. last − 1 that nest: column j has the rows of column first from the (j − first)-th on, so that what all of them act on
-/// is gathered once, behind which each column is one dense loop.
+/// is gathered once, behind which each column is one dense loop. Or, for solves, columns with equal rows that do not act on each other.
 struct Stretch {
   std::int32_t first, last;
   std::int64_t count;            ///< rows of column first
   const std::int32_t* rows;
+  bool equal = false;
 };
 
 /// What the loops over entries of L work on; by position, column j's entries from values + pointers[j] on.
@@ -30,6 +31,9 @@ struct Kernels {
   std::int64_t (*forward)(const FactorArrays&, const Stretch&, double* y);
   /// sum := Σ_k f_k c_k over `columns` runs of `count` entries, in order of k.
   void (*combine)(std::int64_t count, std::int32_t columns, const double* const* c, const double* f, double* sum);
+  /// block[stride · a + b] += Σ_j c_j[a] c_j[b] / d_j over columns of `count` ≤ 16 entries, in order of j, for b ≥ a; stride: count rounded up to four.
+  /// block: room for stride² entries, those with b < a are not to be read.
+  void (*products)(std::int64_t count, std::int32_t columns, const double* const* c, const double* inverse, double* block);
   /// x_j := (x_j − C(:,j)ᵀ x) / d_j for the columns of a stretch that are in, in reverse.
   std::int64_t (*backward)(const FactorArrays&, const Stretch&, double* x);
   /// One stretch of the rank-1 update "trailing matrix += σ w wᵀ". Gill, Golub, Murray & Saunders (1974), method C1, on C = L D:
@@ -40,7 +44,7 @@ struct Kernels {
   /// Y := L⁻¹ Y for a panel of four vectors, y[4q + lane], that are 0 before block `begin`.  returns the block behind the last one that is not 0.
   std::int32_t (*panel_forward)(const BlockLdl&, std::int32_t begin, std::int32_t blocks, double* y);
   /// Replaces block b of the matrix (entries on and below the diagonal) by that of L. before: the blocks above are done.  returns how many of its rows
-  /// have pivots above least[0..3] before the first that has not: 4, or the block is spoilt.
+  /// have pivots above least[0..3], or below −least where that is not 0, before the first that has not: 4, or the block is spoilt.
   std::int32_t (*block_eliminate)(const BlockLdl&, std::int32_t b, const double* least);
   /// x := L⁻¹ x; x := L⁻ᵀ x.
   void (*block_forward)(const BlockLdl&, std::int32_t blocks, double* x);

@@ -8,6 +8,17 @@ namespace {
 
 double or_infinite(double e) { return std::isfinite(e) ? e : infinity; }
 
+double relative_error(double absolute, double size) {
+  return absolute == 0 ? 0 : size == 0 ? absolute : size < infinity && absolute < infinity ? absolute / size : infinity;
+}
+
+/// The larger error, and the first of equals.
+void take(double& largest, std::int32_t& worst, double error, std::int32_t index) {
+  if (index < 0 || error < largest) return;
+  if (worst < 0 || error > largest || index < worst) worst = index;
+  largest = error;
+}
+
 }  // namespace
 
 double natural_residual(double w, double a, double gamma, double lo, double hi) {
@@ -15,17 +26,14 @@ double natural_residual(double w, double a, double gamma, double lo, double hi) 
   return std::max(lower, std::min(w, upper));
 }
 
-void Measure::momentum(const Problem& problem, std::span<const double> v, std::span<const double> gamma, Errors& e) {
-  const std::int32_t n = problem.n(), m = problem.m();
+void Measure::momentum(const Problem& problem, std::span<const std::int32_t> velocities, std::span<const std::int32_t> rows, std::span<const double> v,
+                       std::span<const double> gamma, Errors& e) {
   const SparseView mass = problem.mass_view(), jacobian = problem.jacobian_view();
-  sum_.resize(n);
-  size_.resize(n);
-  diagonal_.resize(n);
-  for (std::int32_t j = 0, t = 0; j < n; ++j) {
+  for (const std::int32_t j : velocities) {
     const double k = problem.momentum[j];
     double sum = -k, size = std::abs(k);
     std::int32_t diagonal = -1;
-    for (const std::int32_t end = mass.pointers[j + 1]; t < end; ++t) {
+    for (std::int32_t t = mass.pointers[j], end = mass.pointers[j + 1]; t < end; ++t) {
       const std::int32_t other = mass.indices[t];
       const double term = mass.values[t] * v[other];
       sum += term;
@@ -35,37 +43,47 @@ void Measure::momentum(const Problem& problem, std::span<const double> v, std::s
     sum_[j] = sum;
     size_[j] = size;
     diagonal_[j] = diagonal < 0 ? 0 : mass.values[diagonal];
+    reach_[j] = -1;
   }
-  for (std::int32_t i = 0; i < m; ++i) {
+  for (const std::int32_t i : rows) {
     if (gamma[i] == 0) continue;
-    for (std::int32_t t = jacobian.pointers[i]; t < jacobian.pointers[i + 1]; ++t) {
+    for (std::int32_t t = jacobian.pointers[i], end = jacobian.pointers[i + 1]; t < end; ++t) {
+      const std::int32_t j = jacobian.indices[t];
+      if (size_[j] < 0) continue;
       const double term = jacobian.values[t] * gamma[i];
-      sum_[jacobian.indices[t]] -= term;
-      size_[jacobian.indices[t]] += std::abs(term);
+      sum_[j] -= term;
+      size_[j] += std::abs(term);
     }
   }
-  for (const Body& body : problem.bodies) {
-    const std::int32_t begin = body.offset, end = begin + body.dimension;
-    if (body.prescribed) {
-      std::fill(sum_.begin() + begin, sum_.begin() + end, 0.0);
-      continue;
-    }
-    for (std::int32_t j = begin; j < end; ++j) {
-      if (e.worst_velocity < 0) e.worst_velocity = j;
-      const double absolute = std::abs(sum_[j]);
-      if (!(absolute <= e.momentum_residual)) e.momentum_residual = or_infinite(absolute);
-      if (absolute <= e.momentum * size_[j] && size_[j] < infinity) continue;  // without a division
-      const double relative = velocity_error(j);
-      if (!(relative > e.momentum)) continue;
-      e.worst_velocity = j;
-      e.momentum = relative;
-    }
+  for (const std::int32_t j : velocities) {
+    if (e.worst_velocity < 0) e.worst_velocity = j;
+    const double absolute = std::abs(sum_[j]);
+    if (!(absolute <= e.momentum_residual)) e.momentum_residual = or_infinite(absolute);
+    if (absolute <= e.momentum * size_[j] && size_[j] < infinity) continue;  // without a division
+    const double relative = velocity_error(j);
+    if (!(relative > e.momentum)) continue;
+    e.worst_velocity = j;
+    e.momentum = relative;
+  }
+}
+
+/// momentum() of velocities whose mass is one entry and that no row touches. Nobody asks for their numbers one by one.
+void Measure::free_momentum(const Problem& problem, std::span<const std::int32_t> velocities, std::span<const double> v, Errors& e) const {
+  if (!velocities.empty()) e.worst_velocity = velocities[0];
+  for (const std::int32_t j : velocities) {
+    const double k = problem.momentum[j], term = problem.mass.values[problem.mass.pointers[j]] * v[j];
+    const double absolute = std::abs(term - k), size = std::abs(k) + std::abs(term);
+    if (!(absolute <= e.momentum_residual)) e.momentum_residual = or_infinite(absolute);
+    if (absolute <= e.momentum * size && size < infinity) continue;  // without a division
+    const double relative = relative_error(or_infinite(absolute), size);
+    if (!(relative > e.momentum)) continue;
+    e.worst_velocity = j;
+    e.momentum = relative;
   }
 }
 
 double Measure::velocity_error(std::int32_t j) const {
-  const double absolute = or_infinite(std::abs(sum_[j])), size = size_[j];
-  return absolute == 0 ? 0 : size == 0 ? absolute : size < infinity && absolute < infinity ? absolute / size : infinity;
+  return relative_error(or_infinite(std::abs(sum_[j])), size_[j]);
 }
 
 void Measure::scale_by_contact(std::span<const std::int32_t> contact_of_row) {
@@ -77,31 +95,17 @@ void Measure::scale_by_contact(std::span<const std::int32_t> contact_of_row) {
     if (const std::int32_t c = contact_of_row[i]; c >= 0) scale[i] = largest_[c];
 }
 
-void Measure::rows(const Problem& problem, const Mask* enabled, std::span<const double> v, std::span<const double> gamma,
-                   std::span<const std::int32_t> contact_of_row, Errors& e) {
-  const std::int32_t n = problem.n(), m = problem.m();
+void Measure::rows(const Problem& problem, std::span<const std::int32_t> rows, std::span<const double> v, std::span<const double> gamma) {
   const SparseView jacobian = problem.jacobian_view(), sigma = problem.compliance_view();
-  reach_.assign(n, -1.0);  // |v| + |v₀| where a row has asked for it
-  inverse_.resize(n);      // likewise
-  w.assign(m, 0.0);
-  scale.assign(m, 0.0);
-  a.assign(m, 0.0);
-  residual.assign(m, 0.0);
-  error.assign(m, 0.0);
-  double largest_a = 0;
-  for (std::int32_t i = 0; i < m; ++i) {
-    if (enabled && enabled->state[i] == MLCP_ROW_DISABLED) continue;
+  for (const std::int32_t i : rows) {
     double sum = -problem.r[i], size = std::abs(problem.r[i]), square = problem.sigma(i);
-    for (std::int32_t t = jacobian.pointers[i]; t < jacobian.pointers[i + 1]; ++t) {
+    for (std::int32_t t = jacobian.pointers[i], end = jacobian.pointers[i + 1]; t < end; ++t) {
       const std::int32_t j = jacobian.indices[t];
       const double x = jacobian.values[t];
       if (reach_[j] < 0) {
-        if (problem.prescribed(j))
-          diagonal_[j] = 0;
-        else if (!(diagonal_[j] > 0))
-          diagonal_[j] = 1;
-        reach_[j] = std::abs(v[j]) + std::abs(diagonal_[j] > 0 ? problem.momentum[j] / diagonal_[j] : v[j]);
-        inverse_[j] = diagonal_[j] > 0 ? std::min(1 / diagonal_[j], std::numeric_limits<double>::max()) : 0;
+        if (!(diagonal_[j] > 0)) diagonal_[j] = 1;
+        reach_[j] = std::abs(v[j]) + std::abs(problem.momentum[j] / diagonal_[j]);
+        inverse_[j] = std::min(1 / diagonal_[j], std::numeric_limits<double>::max());
       }
       sum += x * v[j];
       size += std::abs(x) * reach_[j];
@@ -115,36 +119,99 @@ void Measure::rows(const Problem& problem, const Mask* enabled, std::span<const 
     w[i] = sum;
     scale[i] = size > 0 ? size : 1;
     a[i] = square;
-    largest_a = std::max(largest_a, square);
   }
+}
+
+void Measure::judge_row(const Problem& problem, std::int32_t i, double gamma) {
+  residual[i] = or_infinite(std::abs(natural_residual(w[i], a[i], gamma, problem.lo[i], problem.hi[i])));
+  error[i] = or_infinite(residual[i] / scale[i]);
+  if (!std::isfinite(gamma) || !std::isfinite(w[i]) || !std::isfinite(scale[i])) error[i] = infinity;
+}
+
+void Measure::take_row(std::int32_t i, Errors& e) const {
+  e.constraint_residual = std::max(e.constraint_residual, residual[i]);
+  if (e.worst_row < 0 || error[i] > e.constraints) e.worst_row = i;
+  e.constraints = std::max(e.constraints, error[i]);
+}
+
+void Measure::judge_together(const Problem& problem, const Mask* enabled, std::span<const double> gamma, std::span<const std::int32_t> contact_of_row) {
+  double largest_a = 0;
+  for (const double square : a) largest_a = std::max(largest_a, square);
   scale_by_contact(contact_of_row);
-  for (std::int32_t i = 0; i < m; ++i) {
+  for (std::int32_t i = 0; i < problem.m(); ++i) {
     if (enabled && enabled->state[i] == MLCP_ROW_DISABLED) continue;
     if (!(a[i] > 0)) a[i] = largest_a > 0 ? largest_a : 1;
-    residual[i] = or_infinite(std::abs(natural_residual(w[i], a[i], gamma[i], problem.lo[i], problem.hi[i])));
-    error[i] = or_infinite(residual[i] / scale[i]);
-    if (!std::isfinite(gamma[i]) || !std::isfinite(w[i]) || !std::isfinite(scale[i])) error[i] = infinity;
+    judge_row(problem, i, gamma[i]);
   }
-  take_maxima(enabled, e);
 }
 
 void Measure::take_maxima(const Mask* enabled, Errors& e) const {
   e.constraints = e.constraint_residual = 0;
   e.worst_row = -1;
-  for (std::int32_t i = 0; i < static_cast<std::int32_t>(error.size()); ++i) {
-    if (enabled && enabled->state[i] == MLCP_ROW_DISABLED) continue;
-    e.constraint_residual = std::max(e.constraint_residual, residual[i]);
-    if (e.worst_row < 0 || error[i] > e.constraints) e.worst_row = i;
-    e.constraints = std::max(e.constraints, error[i]);
+  for (std::int32_t i = 0; i < static_cast<std::int32_t>(error.size()); ++i)
+    if (!enabled || enabled->state[i] != MLCP_ROW_DISABLED) take_row(i, e);
+}
+
+Errors Measure::begin(const Problem& problem, const Mask* enabled, std::span<const std::int32_t> free_velocity, std::span<const double> v) {
+  const std::int32_t n = problem.n(), m = problem.m();
+  for (Array<double>* by_velocity : {&sum_, &size_, &diagonal_, &reach_, &inverse_}) by_velocity->resize(n);
+  for (Array<double>* by_row : {&w, &scale, &a, &residual, &error}) by_row->resize(m);
+  for (std::int32_t i = 0; enabled && i < m; ++i)
+    if (enabled->state[i] == MLCP_ROW_DISABLED) w[i] = scale[i] = a[i] = residual[i] = error[i] = 0;
+  for (const Body& body : problem.bodies) {
+    if (!body.prescribed) continue;
+    for (std::int32_t j = body.offset; j < body.offset + body.dimension; ++j) {
+      sum_[j] = diagonal_[j] = inverse_[j] = 0;
+      size_[j] = -1;
+      reach_[j] = 2 * std::abs(v[j]);
+    }
   }
+  Errors e;
+  free_momentum(problem, free_velocity, v, e);
+  return e;
+}
+
+Measure::Part Measure::part(const Problem& problem, std::span<const std::int32_t> velocities, std::span<const std::int32_t> rows, std::span<const double> v,
+                            std::span<const double> gamma) {
+  Part found;
+  momentum(problem, velocities, rows, v, gamma, found.errors);
+  this->rows(problem, rows, v, gamma);
+  for (const std::int32_t i : rows) {
+    found.complete &= a[i] > 0;
+    judge_row(problem, i, gamma[i]);
+    take_row(i, found.errors);
+  }
+  return found;
+}
+
+Errors Measure::end(const Problem& problem, const Mask* enabled, std::span<const double> gamma, std::span<const std::int32_t> contact_of_row, Errors e,
+                    std::span<const Part> parts) {
+  bool complete = contact_of_row.empty();
+  for (const Part& part : parts) {
+    const Errors& more = part.errors;
+    e.momentum_residual = std::max(e.momentum_residual, more.momentum_residual);
+    e.constraint_residual = std::max(e.constraint_residual, more.constraint_residual);
+    take(e.momentum, e.worst_velocity, more.momentum, more.worst_velocity);
+    take(e.constraints, e.worst_row, more.constraints, more.worst_row);
+    complete &= part.complete;
+  }
+  if (complete) return e;
+  judge_together(problem, enabled, gamma, contact_of_row);
+  take_maxima(enabled, e);
+  return e;
 }
 
 Errors Measure::run(const Problem& problem, const Mask* enabled, std::span<const double> v, std::span<const double> gamma,
                     std::span<const std::int32_t> contact_of_row) {
-  Errors e;
-  momentum(problem, v, gamma, e);
-  rows(problem, enabled, v, gamma, contact_of_row, e);
-  return e;
+  velocities_.clear();
+  for (const Body& body : problem.bodies)
+    for (std::int32_t j = body.offset; !body.prescribed && j < body.offset + body.dimension; ++j) velocities_.push_back(j);
+  rows_.clear();
+  for (std::int32_t i = 0; i < problem.m(); ++i)
+    if (!enabled || enabled->state[i] != MLCP_ROW_DISABLED) rows_.push_back(i);
+  const Errors free = begin(problem, enabled, {}, v);
+  const Part all = part(problem, velocities_.span(), rows_.span(), v, gamma);
+  return end(problem, enabled, gamma, contact_of_row, free, {&all, 1});
 }
 
 }  // namespace mlcp

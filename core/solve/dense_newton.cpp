@@ -19,6 +19,10 @@ constexpr int short_patience = 1;
 constexpr double found_pivot = 1e-14;
 /// Sweeps of the guess: it stands when two in turn leave the same rows active.
 constexpr int most_sweeps = 8;
+/// From the impulses of a step before.
+constexpr int most_sweeps_on = 2;
+/// More active rows are factored sooner the sparse way, whose cost is not that of a cube; where there are velocities, A has cost too much by then.
+constexpr std::int32_t most_active = 160;
 
 }  // namespace
 
@@ -28,14 +32,17 @@ void DenseNewton::rest(std::int32_t i, ActiveSet::State to) {
 }
 
 void DenseNewton::start(const Problem& problem, const Mask* mask) {
+  impulses_ = mask && !mask->impulse.empty();
   for (std::int32_t i = 0; i < s_.m; ++i) {
     rest(i, ActiveSet::starting(problem, s_.row[i], mask));
-    if (s_.state[i] == ActiveSet::active) s_.gamma[i] = 0;
+    if (s_.state[i] == ActiveSet::active) s_.gamma[i] = impulses_ ? mask->impulse[s_.row[i]] : 0;
   }
 }
 
+bool DenseNewton::too_many() const { return s_.n == 0 && s_.m > most_active && std::count(s_.state, s_.state + s_.m, ActiveSet::active) > most_active; }
+
 /// Projected Gauss-Seidel on A. The slacks follow every impulse by its column of A, which is its row: no sum has to wait for the impulse before.
-void DenseNewton::guess() {
+void DenseNewton::guess(int most) {
   double* const w = s_.x_rows();
   const std::int32_t stride = 4 * s_.panels;
   const auto push = [&](std::int32_t i, double by) {
@@ -48,7 +55,7 @@ void DenseNewton::guess() {
     if (s_.gamma[i] != 0) push(i, s_.gamma[i]);
     s_.w[i] = s_.response(i, i) >= std::numeric_limits<double>::min() ? 1 / s_.response(i, i) : 0;
   }
-  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+  for (int sweep = 0; sweep < most; ++sweep) {
     bool changed = false;
     for (std::int32_t i = 0; i < s_.m; ++i) {
       if (s_.w[i] == 0) continue;
@@ -60,7 +67,7 @@ void DenseNewton::guess() {
       if (s_.gamma[i] != before) push(i, s_.gamma[i] - before);
     }
     counts_.work += static_cast<std::int64_t>(s_.m) * s_.m;
-    if (!changed) break;
+    if (!changed || too_many()) break;
   }
 }
 
@@ -140,7 +147,8 @@ bool DenseNewton::full_steps(double drop, int patience) {
 }
 
 bool DenseNewton::solve(bool warm, bool pivots) {
-  if (!warm) guess();
+  if (!warm || impulses_) guess(warm ? most_sweeps_on : most_sweeps);
+  if (too_many()) return false;
   if (full_steps(dependent_pivot, pivots ? short_patience : patience)) return true;
   return pivots && !dropped_joints() && DenseSimplex(s_, zero_, counts_).solve() && full_steps(found_pivot, short_patience);
 }

@@ -11,8 +11,10 @@ namespace {
 
 /// Full steps may go on so often without fewer changes than ever before.
 constexpr int patience = 10;
-/// Where rows depend on each other and the start is only a guess: the interior points are next.
+/// Where rows depend on each other and the start is only a guess, the interior points are next: after so many steps, or at once if the guess is wrong
+/// about more than one row in eight.
 constexpr int patience_with_guesses = 3;
+constexpr std::size_t good_guess = 8;
 /// Where pivots touch so few rows, those that full steps have left to do are fewer than the steps of interior points.
 constexpr std::int32_t few_to_pivot = 1000;
 /// Refined points as good as this are judged row by row; worse ones stand on a factor that cannot be trusted.
@@ -45,7 +47,8 @@ void Newton::go_back(const Island& island) {
 Newton::Ending Newton::full_steps(const Island& island, double drop) {
   std::size_t fewest = SIZE_MAX;
   int share = 0;  // 2^−share of the changes are made
-  const int most = drop > 0 || warm_ ? patience : patience_with_guesses;
+  const bool guessed = drop == 0 && !warm_;
+  int most = guessed ? patience_with_guesses : patience;
   for (int left = most;;) {
     stopped_ = limits_.check(counts_, 0);
     if (stopped_ != MLCP_SOLVED) return Ending::stopped;
@@ -56,6 +59,7 @@ Newton::Ending Newton::full_steps(const Island& island, double drop) {
       keep(island);
       return Ending::settled;
     }
+    if (guessed && good_guess * flips.size() > static_cast<std::size_t>(island.last_row - island.first_row)) most = 0;
     if (flips.size() < fewest) {
       fewest = flips.size();
       left = most;

@@ -64,7 +64,35 @@ TEST_F(BodyEdits, SparseMassRefused) {
                  [&] { return mlcp_problem_body_set_mass(p, id, asymmetric, 4); });
   expect_refused(p, MLCP_ERROR_ARGUMENT, "diagonal entry 0", [&] { return mlcp_problem_body_set_mass(p, id, negative, 4); });
   expect_refused(p, MLCP_ERROR_ARGUMENT, "mass[2]", [&] { return mlcp_problem_body_set_mass(p, id, bad, 4); });
+  const double equal[] = {2, HUGE_VAL, HUGE_VAL, 3}, heavy[] = {2, 0, 0, HUGE_VAL};
+  expect_refused(p, MLCP_ERROR_ARGUMENT, "mass[1]", [&] { return mlcp_problem_body_set_mass(p, id, equal, 4); });
+  expect_refused(p, MLCP_ERROR_ARGUMENT, "mass[3]", [&] { return mlcp_problem_body_set_mass(p, id, heavy, 4); });
   expect_refused(p, MLCP_ERROR_RANGE, "count = 3", [&] { return mlcp_problem_body_set_mass(p, id, values, 3); });
+}
+
+TEST_F(BodyEdits, SparseMassOfBothTrianglesInAnyOrder) {
+  add_body(p, 1);
+  const int32_t pointers[] = {0, 2, 5, 7};
+  for (const auto& rows : {std::vector<int32_t>{0, 1, 0, 1, 2, 1, 2}, {1, 0, 2, 1, 0, 2, 1}}) {
+    std::vector<double> given(7);
+    for (int j = 0, e = 0; j < 3; ++j)
+      for (; e < pointers[j + 1]; ++e) given[e] = rows[e] == j ? 2 + j : 0.5 / std::max(1, std::max(j, rows[e]));
+    int32_t id = -1;
+    ASSERT_EQ(mlcp_problem_body_add_sparse(p, 3, pointers, rows.data(), given.data(), MLCP_FULL, &id), MLCP_OK) << mlcp_problem_error(p);
+    for (double& x : given) x *= 2;
+    ASSERT_EQ(mlcp_problem_body_set_mass(p, id, given.data(), 7), MLCP_OK) << mlcp_problem_error(p);
+    const std::vector<double> m = dense(mass_of(p), false);
+    const std::vector<double> block{4, 1, 0, 1, 6, 0.5, 0, 0.5, 8};
+    const int n = mlcp_problem_velocity_count(p);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) EXPECT_EQ(m[(n - 3 + i) * n + n - 3 + j], block[3 * i + j]) << i << ", " << j;
+    for (int e = 0; e < 7; ++e) {  // any entry off the diagonal that differs from its mirror
+      std::vector<double> odd = given;
+      odd[e] += 1;
+      const bool diagonal = std::count(block.begin(), block.end(), given[e]) == 1;
+      EXPECT_EQ(mlcp_problem_body_set_mass(p, id, odd.data(), 7), diagonal ? MLCP_OK : MLCP_ERROR_ARGUMENT) << e;
+    }
+  }
 }
 
 TEST_F(BodyEdits, RemoveMovesTheOthersUp) {

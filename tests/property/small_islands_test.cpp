@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "dense_stage.h"
+#include "support/build.h"
 #include "support/random_problem.h"
 #include "support/solution.h"
 
@@ -51,6 +52,25 @@ TEST(SmallIslands, StartsAndThreadsLeadToTheSamePlace) {
     ASSERT_EQ(many.v, cold.v) << "seed " << seed;
     ASSERT_EQ(many.gamma, cold.gamma) << "seed " << seed;
   }
+}
+
+/// Which islands are for the dense way is a matter of rows, of velocities and of how many rows there are for them.
+TEST(SmallIslands, AreThoseWhoseRowsAreFew) {
+  const auto without_factor = [](const mlcp::Problem& p) {
+    mlcp::Solver solver(automatic(), mlcp::Memory());
+    const Solution s = solve(solver, p), expected = solve(p, settings());
+    EXPECT_EQ(s.report.outcome, expected.report.outcome);
+    EXPECT_TRUE(s.report.outcome != MLCP_SOLVED || difference(s.v, expected.v) < 1e-9);
+    return solver.ordering().empty();
+  };
+  Random random(3);
+  EXPECT_TRUE(without_factor(random_chain(random, 66, 6, 2)));    // 396 velocities, 196 rows
+  EXPECT_FALSE(without_factor(random_chain(random, 68, 6, 2)));   // 408 velocities, 202 rows
+  EXPECT_FALSE(without_factor(random_chain(random, 50, 3, 3)));   // 150 velocities, 197 rows
+  const auto apart = [](int rows, double b) { return reduced_problem(Eigen::MatrixXd::Identity(rows, rows) + Eigen::MatrixXd::Constant(rows, rows, 1e-3), Eigen::VectorXd::Constant(rows, b)); };
+  EXPECT_TRUE(without_factor(apart(300, 1)));
+  EXPECT_FALSE(without_factor(apart(300, -1)));  // all of them are active
+  EXPECT_TRUE(without_factor(apart(96, -1)));
 }
 
 TEST(SmallIslands, ASecondSolveOfThePatternFindsNothingAnew) {

@@ -146,5 +146,20 @@ TEST_F(BlockLdl, SaysWhichRowHasNoPivot) {
   }
 }
 
+TEST_F(BlockLdl, NegativePivotsCountWhereALeastSizeIsAskedFor) {
+  for (int seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    Case c(random, 3);
+    const int row = 8 + random.integer(0, 3);
+    c.A(row, row) = -2;
+    const double least[4] = {1e-9, 1e-9, 1e-9, 1e-9};
+    for (int b = 0; b < 3; ++b) ASSERT_EQ(c.eliminate(mlcp::portable_kernels, b, least), 4);
+    const Eigen::MatrixXd l = c.L(), product = l * Eigen::Map<Eigen::VectorXd>(c.inverse.data(), c.size).cwiseInverse().asDiagonal() * l.transpose();
+    ASSERT_LT((product - c.A).cwiseAbs().maxCoeff(), 1e-10);
+    ASSERT_LT(c.inverse[row], 0);
+  }
+}
+
 }  // namespace
 }  // namespace support

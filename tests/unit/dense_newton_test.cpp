@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/build.h"
 #include "support/dense.h"
 #include "support/random_problem.h"
 
@@ -88,6 +89,18 @@ TEST(DenseNewton, PivotsWhereRowsDependOnEachOther) {
   }
   EXPECT_GT(pivoting.done, 295);
   EXPECT_LT(stepping.done, pivoting.done - 50);
+}
+
+/// A that is not quite positive semidefinite, as measured ones are: the row is taken in for what its pivot is, and its impulse found.
+TEST(DenseNewton, FactorsWhatIsNotQuiteSemidefinite) {
+  Eigen::MatrixXd A(2, 2);
+  A << 1, 1, 1, 1 - 1e-6;
+  const mlcp::Problem p = reduced_problem(A, -A * Eigen::Vector2d(1, 1));
+  Tally tally;
+  mlcp::Mask both{mlcp::Memory()};
+  both.state.assign(2, MLCP_ROW_ACTIVE);
+  run(p, &both, false, tally);
+  EXPECT_EQ(tally.done, 1);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "analyze/components.h"
 #include "support/random_problem.h"
 #include "support/solution.h"
 
@@ -139,6 +140,51 @@ TEST(Errors, RowsOfAContactAreMeasuredTogether) {
 }
 
 /// Random points of random problems against the definitions of the design, written out.
+TEST(Errors, PartsInAnyOrderAddUpToTheWhole) {
+  Random random(23);
+  Shape shape;
+  shape.bodies_most = 12;
+  shape.rows_most = 10;
+  shape.prescribed = 0.4;
+  int several = 0, shared = 0;
+  for (int round = 0; round < 400; ++round) {
+    const mlcp::Problem p = random_problem(random, shape);
+    const mlcp::Mask enabled = enabled_mask(random, p.m(), 0.2);
+    std::vector<double> v(p.n()), gamma(p.m());
+    for (double& x : v) x = random.uniform() - 0.5;
+    for (int i = 0; i < p.m(); ++i) gamma[i] = enabled.state[i] == MLCP_ROW_DISABLED || random.chance(0.3) ? 0 : random.uniform();
+    for (const mlcp::Body& body : p.bodies)
+      if (body.prescribed) std::copy_n(p.given_velocity.begin() + body.offset, body.dimension, v.begin() + body.offset);
+    std::vector<std::int32_t> contact;
+    for (int i = 0; round % 2 && i < p.m(); ++i) contact.push_back(i / 2);
+    mlcp::Components components{mlcp::Memory()};
+    components.update(p, &enabled);
+    mlcp::Measure whole{mlcp::Memory()}, parts{mlcp::Memory()};
+    const mlcp::Errors expected = whole.run(p, &enabled, v, gamma, contact);
+    const mlcp::Errors free = parts.begin(p, &enabled, components.free_velocity.span(), v);
+    std::vector<mlcp::Measure::Part> found(components.count());
+    for (int c = components.count() - 1; c >= 0; --c) {
+      found[c] = parts.part(p, components.velocities_of(c), components.rows_of(c), v, gamma);
+      shared += !found[c].complete;
+    }
+    several += components.count() > 1;
+    const mlcp::Errors e = parts.end(p, &enabled, gamma, contact, free, found);
+    for (const auto numbers : {&mlcp::Measure::w, &mlcp::Measure::scale, &mlcp::Measure::a, &mlcp::Measure::residual, &mlcp::Measure::error})
+      for (int i = 0; i < p.m(); ++i) ASSERT_EQ((parts.*numbers)[i], (whole.*numbers)[i]) << round << ", row " << i;
+    for (int c = 0; c < components.count(); ++c)
+      for (const int j : components.velocities_of(c)) ASSERT_EQ(parts.velocity_error(j), whole.velocity_error(j)) << round << ", velocity " << j;
+    EXPECT_EQ(e.constraints, expected.constraints);
+    EXPECT_EQ(e.constraint_residual, expected.constraint_residual);
+    EXPECT_EQ(e.worst_row, expected.worst_row);
+    EXPECT_DOUBLE_EQ(e.momentum, expected.momentum);
+    EXPECT_EQ(e.momentum_residual, expected.momentum_residual);
+    ASSERT_EQ(e.worst_velocity < 0, expected.worst_velocity < 0);
+    EXPECT_DOUBLE_EQ(e.worst_velocity < 0 ? 0 : whole.velocity_error(e.worst_velocity), expected.momentum);
+  }
+  EXPECT_GT(several, 100);
+  EXPECT_GT(shared, 20) << "rows without an a of their own";
+}
+
 TEST(Errors, EqualTheDefinitionsWrittenOut) {
   for (int seed = 0; seed < 2000; ++seed) {
     Random random(seed);

@@ -89,6 +89,64 @@ TEST_F(Kernels, BackwardSolvesTheTransposedColumns) {
   }
 }
 
+/// Columns with equal rows that do not act on each other are solved with as if each stood alone.
+TEST_F(Kernels, EqualColumnsAreSolvedWithAsOneByOne) {
+  for (const mlcp::Kernels* kernels : {&mlcp::portable_kernels, &mlcp::kernels_for_this_cpu()})
+    for (int seed = 0; seed < 500; ++seed) {
+      Random random(seed);
+      const int columns = random.integer(1, 11), tail = random.integer(1, 19);
+      Columns together(random, columns, tail);
+      together.stretch.count = tail;
+      together.stretch.rows += columns - 1;
+      together.stretch.equal = true;
+      for (int j = 0; j < columns; ++j) together.pointers[j + 1] = std::int64_t{tail} * (j + 1);
+      together.values.resize(static_cast<std::size_t>(columns) * tail);
+      for (double& entry : together.values) entry = random.uniform();
+      Columns apart = together;
+      const auto alone = [&](int j) {
+        mlcp::Stretch s = together.stretch;
+        s.first = j;
+        s.last = j + 1;
+        s.equal = false;
+        return s;
+      };
+      kernels->forward(together.arrays(), together.stretch, together.x.data());
+      for (int j = 0; j < columns; ++j) kernels->forward(apart.arrays(), alone(j), apart.x.data());
+      ASSERT_TRUE(same_bits(together.x, apart.x)) << "forward, seed " << seed;
+      kernels->backward(together.arrays(), together.stretch, together.x.data());
+      for (int j = columns - 1; j >= 0; --j) kernels->backward(apart.arrays(), alone(j), apart.x.data());
+      for (int j = 0; j < columns; ++j)  // of a column that is out, x is 0 or left as it is
+        ASSERT_TRUE(!together.in[j] || together.x[j] == apart.x[j]) << "backward, seed " << seed;
+    }
+}
+
+/// Σ_j c_j c_jᵀ / d_j on top of what is there, each entry summed in order of j, on either CPU.
+TEST_F(Kernels, ProductsSumOuterProductsInOrder) {
+  for (int seed = 0; seed < 500; ++seed) {
+    Random random(seed);
+    const int count = random.integer(1, 16), columns = random.integer(1, 40), stride = (count + 3) / 4 * 4;
+    std::vector<std::vector<double>> c(columns, std::vector<double>(count));
+    std::vector<const double*> pointers;
+    std::vector<double> inverse(columns), before(static_cast<std::size_t>(stride) * stride);
+    for (double& entry : before) entry = random.uniform();
+    for (int k = 0; k < columns; ++k) {
+      inverse[k] = random.uniform();
+      for (double& entry : c[k]) entry = random.uniform();
+      pointers.push_back(c[k].data());
+    }
+    for (const mlcp::Kernels* kernels : {&mlcp::portable_kernels, &mlcp::kernels_for_this_cpu()}) {
+      std::vector<double> block = before;
+      kernels->products(count, columns, pointers.data(), inverse.data(), block.data());
+      for (int a = 0; a < count; ++a)
+        for (int b = a; b < count; ++b) {
+          double expected = before[stride * a + b];
+          for (int k = 0; k < columns; ++k) expected += c[k][b] * (c[k][a] * inverse[k]);
+          ASSERT_EQ(block[stride * a + b], expected) << "seed " << seed << " at " << a << ", " << b;
+        }
+    }
+  }
+}
+
 /// Σ_k f_k c_k, each entry summed in order of k, on either CPU.
 TEST_F(Kernels, CombineSumsColumnsInOrder) {
   for (int seed = 0; seed < 500; ++seed) {

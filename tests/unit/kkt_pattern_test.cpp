@@ -17,7 +17,10 @@ void expect_pattern_of(const mlcp::Problem& problem, const mlcp::Mask* enabled) 
   Pattern lower(size), upper(size), mirrored(size);
   for (int p = 0; p < size; ++p) {
     ASSERT_EQ(k.position[k.node[p]], p);
-    for (auto t = k.lower_pointers[p]; t < k.lower_pointers[p + 1]; ++t) ASSERT_TRUE(lower[p].insert(k.lower_rows[t]).second);
+    for (auto t = k.lower_pointers[p]; t < k.lower_pointers[p + 1]; ++t) {
+      ASSERT_TRUE(lower[p].insert(k.lower_rows[t]).second);
+      ASSERT_TRUE(t == k.lower_pointers[p] || k.lower_rows[t] > k.lower_rows[t - 1]);
+    }
     for (auto t = k.upper_pointers[p]; t < k.upper_pointers[p + 1]; ++t) ASSERT_TRUE(upper[p].insert(k.upper_rows[t]).second);
     for (const int q : a[p]) mirrored[q].insert(p);
   }
@@ -51,6 +54,19 @@ TEST(KktPattern, RandomProblems) {
     const mlcp::Problem p = random_problem(random, shape);
     const mlcp::Mask enabled = enabled_mask(random, p.m(), 0.2);
     expect_pattern_of(p, random.chance(0.5) ? &enabled : nullptr);
+    ASSERT_FALSE(HasFatalFailure()) << "seed " << seed;
+  }
+}
+
+TEST(KktPattern, CrowdedProblemsHaveRowsBeforeVelocities) {
+  Shape shape;
+  shape.bodies_most = 3;
+  shape.rows_least = 30;
+  shape.rows_most = 40;
+  shape.dimension_most = 6;
+  for (int seed = 0; seed < 50; ++seed) {
+    Random random(seed);
+    expect_pattern_of(random_problem(random, shape), nullptr);
     ASSERT_FALSE(HasFatalFailure()) << "seed " << seed;
   }
 }

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
+#include <ctime>
 #include <thread>
 #include <vector>
 
@@ -31,7 +33,7 @@ TEST(Pool, EveryTaskOnce) {
     ASSERT_EQ(pool.threads(), threads);
     for (int round = 0; round < 200; ++round) {
       Calls calls(round);
-      pool.run(round, count_call, &calls);
+      pool.run(round, round % 2 == 0, count_call, &calls);
       for (const auto& called : calls.of) ASSERT_EQ(called, 1) << round;
       ASSERT_LT(calls.workers, 1 << threads);
     }
@@ -51,8 +53,22 @@ TEST(Pool, TheCallerIsAskedWhileItWaitsForOthers) {
     while (!(worker > 0 ? t.asked : t.helping)) std::this_thread::yield();
   };
   const auto ask = [](void* context) { return static_cast<Two*>(context)->asked = true; };
-  pool.run(2, task, &two, ask, &two);
+  pool.run(2, true, task, &two, ask, &two);
   EXPECT_TRUE(two.asked);
+}
+
+TEST(Pool, WhoSleepsCostsNothingAndIsNotWaitedFor) {
+  mlcp::Pool pool{mlcp::Memory()};
+  pool.resize(3);
+  Calls first(30), second(30), third(30);
+  pool.run(30, true, count_call, &first);
+  const std::clock_t before = std::clock();
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  EXPECT_LT(std::clock() - before, CLOCKS_PER_SEC / 50) << "of all threads";
+  pool.run(30, false, count_call, &second);
+  EXPECT_EQ(second.workers, 1) << "the caller alone";
+  pool.run(30, true, count_call, &third);
+  for (int t = 0; t < 30; ++t) EXPECT_EQ(first.of[t] + second.of[t] + third.of[t], 3) << t;
 }
 
 /// Chains that nothing couples.
