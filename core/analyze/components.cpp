@@ -39,8 +39,10 @@ void Components::set_free_apart(const Problem& problem) {
   free_velocity.resize(n);
   coupled_.resize(n);
   std::int32_t *free = free_velocity.data(), *coupled = coupled_.data();
-  for (std::int32_t j = 0; j < n; ++j) {  // without branches: both kinds come in turns
-    const bool alone = !touched_[j] & (mass.pointers[j + 1] - mass.pointers[j] == 1);
+  for (std::int32_t j = 0; j < n; ++j) {  // hardly a branch that changes: both kinds come in turns
+    const std::int32_t t = mass.pointers[j];
+    const bool diagonal = mass.pointers[j + 1] - t == 1 && mass.indices[t] == j;  // an entry alone may stand off it, as a zero
+    const bool alone = !touched_[j] & diagonal;
     *free = *coupled = j;
     free += alone & !fixed_[j];
     coupled += !alone & !fixed_[j];

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "assemble/bodies.h"
 #include "support/random_problem.h"
 #include "support/solution.h"
 
@@ -36,6 +37,21 @@ TEST(Components, PrescribedVelocitiesJoinNothingAndFreeOnesAreInNone) {
   EXPECT_EQ(list(c.rows), (std::vector<std::int32_t>{0, 1, 2}));
   EXPECT_EQ(list(c.row_pointers), (std::vector<std::int32_t>{0, 1, 2, 3}));
   EXPECT_EQ(list(c.of_row), (std::vector<std::int32_t>{0, 1, 2}));
+}
+
+TEST(Components, AVelocityWhoseOnlyEntryIsOffTheDiagonalIsNotFree) {
+  mlcp::Problem p = empty_problem();
+  const std::int32_t pointers[] = {0, 1, 3}, rows[] = {1, 0, 1};
+  const double values[] = {0, 0, 1};
+  mlcp::body_add_sparse(p, 2, pointers, rows, values, MLCP_FULL);
+  mlcp::Components c{mlcp::Memory()};
+  c.update(p, nullptr);
+  EXPECT_EQ(list(c.free_velocity), (std::vector<std::int32_t>{}));
+  EXPECT_EQ(list(c.velocities), (std::vector<std::int32_t>{0, 1}));
+  ASSERT_EQ(c.count(), 1);
+  mlcp::Settings by_default = settings();
+  by_default.method = MLCP_METHOD_AUTO;
+  EXPECT_EQ(solve(p, by_default).report.outcome, MLCP_NOT_POSITIVE_DEFINITE);
 }
 
 TEST(Components, AreFoundAgainOnlyWhenThePatternHasChanged) {
