@@ -145,8 +145,9 @@ void Slip::weigh(const Problem& problem, const Item& item, const Found& found, c
   const Contact& contact = problem.contacts[generators.contact[item.cone]];
   double scale = 0;
   for (std::int32_t t = 0; t < contact.dimension; ++t) scale = std::max(scale, found.scale[contact.row + t]);
-  anderson_.weight[item.first] = 1 / scale;
-  if (!scalar(generators.cone(problem, item.cone))) anderson_.weight[item.first + 1] = 1 / scale;
+  const double weight = scale > 0 ? 1 / scale : 1;
+  anderson_.weight[item.first] = weight;
+  if (!scalar(generators.cone(problem, item.cone))) anderson_.weight[item.first + 1] = weight;
 }
 
 /// A generator of the cone at d. Where it replaces the neighbour that carried the impulse, it carries it.

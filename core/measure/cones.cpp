@@ -27,7 +27,7 @@ Defect defect_of(const Contact& contact, const Cone& cone, std::span<const doubl
     if (!std::isfinite(gamma[i]) || !std::isfinite(measure.w[i]) || !std::isfinite(measure.scale[i])) return {infinity, infinity};
   }
   const double residual = cone.defect(g, shifted(contact, cone, w), a);
-  return {residual, residual / scale};
+  return {residual, relative_error(residual, scale)};
 }
 
 }  // namespace
@@ -63,7 +63,7 @@ void ConeMeasure::run(const Problem& problem, const Mask* enabled, std::int32_t 
     const RowBounds bounds = coupled_bounds(problem, coupling, gamma[coupling.normal]);
     const double residual = std::abs(natural_residual(measure.w[i], measure.a[i], gamma[i], bounds.lo, bounds.hi));
     measure.residual[i] = std::isfinite(residual) ? residual : infinity;
-    measure.error[i] = std::isfinite(residual) && std::isfinite(measure.scale[i]) ? residual / measure.scale[i] : infinity;
+    measure.error[i] = relative_error(measure.residual[i], measure.scale[i]);
   }
   measure.take_maxima(enabled, e);
 }

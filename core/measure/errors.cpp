@@ -8,10 +8,6 @@ namespace {
 
 double or_infinite(double e) { return std::isfinite(e) ? e : infinity; }
 
-double relative_error(double absolute, double size) {
-  return absolute == 0 ? 0 : size == 0 ? absolute : size < infinity && absolute < infinity ? absolute / size : infinity;
-}
-
 /// The larger error, and the first of equals.
 void take(double& largest, std::int32_t& worst, double error, std::int32_t index) {
   if (index < 0 || error < largest) return;
@@ -20,6 +16,10 @@ void take(double& largest, std::int32_t& worst, double error, std::int32_t index
 }
 
 }  // namespace
+
+double relative_error(double absolute, double size) {
+  return absolute == 0 ? 0 : size == 0 ? absolute : size < infinity && absolute < infinity ? absolute / size : infinity;
+}
 
 double natural_residual(double w, double a, double gamma, double lo, double hi) {
   const double upper = a * (gamma - lo), lower = a * (gamma - hi);  // lower ≤ upper
@@ -117,14 +117,14 @@ void Measure::rows(const Problem& problem, std::span<const std::int32_t> rows, s
       size += std::abs(term);
     }
     w[i] = sum;
-    scale[i] = size > 0 ? size : 1;
+    scale[i] = size;
     a[i] = square;
   }
 }
 
 void Measure::judge_row(const Problem& problem, std::int32_t i, double gamma) {
   residual[i] = or_infinite(std::abs(natural_residual(w[i], a[i], gamma, problem.lo[i], problem.hi[i])));
-  error[i] = or_infinite(residual[i] / scale[i]);
+  error[i] = relative_error(residual[i], scale[i]);
   if (!std::isfinite(gamma) || !std::isfinite(w[i]) || !std::isfinite(scale[i])) error[i] = infinity;
 }
 

@@ -79,6 +79,9 @@ class Measure {
   Array<double> largest_;                  // by contact
 };
 
+/// absolute / size, and infinity where either is not finite. Where there is nothing to compare with, the absolute one.
+double relative_error(double absolute, double size);
+
 /// median(w, a(γ − lo), a(γ − hi)): 0 exactly where w > 0 ⇒ γ = lo, w < 0 ⇒ γ = hi, lo ≤ γ ≤ hi holds.
 double natural_residual(double w, double a, double gamma, double lo, double hi);
 

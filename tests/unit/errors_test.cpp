@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "analyze/components.h"
+#include "assemble/contacts.h"
+#include "measure/cones.h"
 #include "support/random_problem.h"
 #include "support/solution.h"
 
@@ -120,6 +123,26 @@ TEST(Errors, EmptyProblemHasNone) {
   EXPECT_EQ(e.largest(), 0);
   EXPECT_EQ(e.worst_row, -1);
   EXPECT_EQ(e.worst_velocity, -1);
+}
+
+/// As small as its own number makes it, also beside a row of its contact that has no numbers at all.
+TEST(Errors, ZeroRowOfAContactIsNoScaleForTheOthers) {
+  mlcp::Problem p = empty_problem();
+  add_row(p, {}, 0);
+  add_row(p, {}, 1e-170, {-mlcp::infinity, mlcp::infinity});
+  mlcp::Measure measure{mlcp::Memory()};
+  const std::vector<std::int32_t> contact_of_row{0, 0};
+  measure.run(p, nullptr, {}, std::vector<double>{0, 0}, contact_of_row);
+  EXPECT_EQ(measure.error[0], 0);
+  EXPECT_EQ(measure.error[1], 1);
+  const std::int32_t row = 0;
+  const mlcp_friction model = MLCP_FRICTION_CONVEX;
+  const double mu = 1, bound = 0;
+  mlcp::contacts_declare(p, 1, 2, &row, {&model, &mu, &bound, nullptr});
+  mlcp::Errors errors = measure.run(p, nullptr, {}, std::vector<double>{0, 0});
+  mlcp::ConeMeasure cones{mlcp::Memory()};
+  cones.run(p, nullptr, mlcp::default_settings().facets, std::vector<double>{0, 0}, measure, errors);
+  EXPECT_NEAR(errors.cones, std::sqrt(0.5), 1e-12) << "dist(w, K*) of a cone with µ = 1";
 }
 
 /// Two rows of one contact: the error of each is relative to the larger scale, that of a third row to its own.
