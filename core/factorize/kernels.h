@@ -44,7 +44,8 @@ struct Kernels {
   /// Y := L⁻¹ Y for a panel of four vectors, y[4q + lane], that are 0 before block `begin`.  returns the block behind the last one that is not 0.
   std::int32_t (*panel_forward)(const BlockLdl&, std::int32_t begin, std::int32_t blocks, double* y);
   /// Replaces block b of the matrix (entries on and below the diagonal) by that of L. before: the blocks above are done.  returns how many of its rows
-  /// have pivots above least[0..3], or below −least where that is not 0, before the first that has not: 4, or the block is spoilt.
+  /// have finite pivots with finite inverses above least[0..3], or below −least where that is not 0, before the first that has not: 4, or the
+  /// block is spoilt.
   std::int32_t (*block_eliminate)(const BlockLdl&, std::int32_t b, const double* least);
   /// x := L⁻¹ x; x := L⁻ᵀ x.
   void (*block_forward)(const BlockLdl&, std::int32_t blocks, double* x);

@@ -73,7 +73,8 @@ std::int32_t block_eliminate(const BlockLdl& f, std::int32_t b, const double* le
   // s[c][r]: entry (r, c); what is above the diagonal is of no effect
   for (int c = 0; c < 4; ++c) {
     const double d = s[c][c], inverse = 1 / d;
-    if (!(d > least[c] || (least[c] > 0 && -d > least[c]))) return c;
+    const bool finite = 0 * (d + inverse) == 0;  // or 0 · ∞ would spoil the rows that fill the block
+    if (!finite || !(d > least[c] || (least[c] > 0 && -d > least[c]))) return c;
     f.inverse[4 * b + c] = inverse;
     const Lanes unit = s[c] * inverse;
     for (int j = c + 1; j < 4; ++j) s[j] -= s[c][j] * unit;

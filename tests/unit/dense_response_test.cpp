@@ -91,6 +91,24 @@ TEST(DenseResponse, DependentRowsAreLeftOutOfTheFactor) {
   EXPECT_NEAR(mlcp::DenseResponse::schur(s, 2), 0, 1e-13);
 }
 
+// The inverse of a denormal pivot overflows, and infinity times the zeros of the rows that fill the block is no number.
+TEST(DenseResponse, RowsWithPivotsThatHaveNoInverseAreLeftOutOfTheFactor) {
+  for (const double other : {0.0, 1.0, 1e150}) {
+    mlcp::Problem p = empty_problem();
+    add_body(p, Eigen::MatrixXd::Identity(2, 2));
+    add_row(p, {{0, 1e-158}});
+    if (other != 0) add_row(p, {{0, other}, {1, other}});
+    Loaded loaded(p);
+    ASSERT_TRUE(loaded.response.compute(p, 0));
+    mlcp::DenseIsland s = loaded.response.island(0);
+    ASSERT_GT(s.response(0, 0), 0);
+    for (*s.members = 0; *s.members < s.m; ++*s.members) s.member[*s.members] = *s.members;
+    mlcp::DenseResponse::factor_active(s, 1e-13);
+    ASSERT_EQ(*s.members, s.m - 1);
+    if (other != 0) EXPECT_EQ(s.member[0], 1);
+  }
+}
+
 TEST(DenseResponse, AnIndefiniteMassIsRefused) {
   mlcp::Problem p = empty_problem();
   add_sparse_body(p, (Eigen::Matrix2d() << 1, 2, 2, 1).finished());
