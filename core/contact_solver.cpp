@@ -228,7 +228,7 @@ void ContactSolver::State::solve_with(const Problem& problem, const Mask* mask, 
       settle_velocities(problem);
       found = measure.run(problem, mask, v.span(), gamma.span());
     }
-    cones.run(problem, mask, settings.facets, gamma.span(), measure, found);
+    cones.run(problem, mask, settings.facets, v.span(), gamma.span(), measure, found);
     if (shifts == 1 || found.largest() <= errors.largest()) keep(problem, found);
     seconds_measure += since(begin) - before;
     if (stopped_from_outside(one.outcome) || shifts >= most) break;

@@ -10,10 +10,12 @@ class ConeMeasure {
  public:
   explicit ConeMeasure(const Memory& m) : error(m) {}
 
-  /// before: `measure` has been run for the same problem, rows and impulses; its errors of the rows of cones and of coupled rows become 0
-  /// and their own, those of `e` are taken over the rest.
+  /// before: `measure` has been run for the same problem, rows, velocities and impulses; its errors of the rows of cones and of coupled rows become 0
+  /// and their own, those of `e` are taken over the rest. Slacks that a large µ multiplies are computed anew in extended precision; what even that
+  /// does not know of µ times the slip counts as error.
   /// facets: of contacts that do not say.
-  void run(const Problem& problem, const Mask* enabled, std::int32_t facets, std::span<const double> gamma, Measure& measure, Errors& e);
+  void run(const Problem& problem, const Mask* enabled, std::int32_t facets, std::span<const double> v, std::span<const double> gamma, Measure& measure,
+           Errors& e);
 
   Array<double> error;  ///< per contact; 0 for models without a cone
 };

@@ -141,8 +141,27 @@ TEST(Errors, ZeroRowOfAContactIsNoScaleForTheOthers) {
   mlcp::contacts_declare(p, 1, 2, &row, {&model, &mu, &bound, nullptr});
   mlcp::Errors errors = measure.run(p, nullptr, {}, std::vector<double>{0, 0});
   mlcp::ConeMeasure cones{mlcp::Memory()};
-  cones.run(p, nullptr, mlcp::default_settings().facets, std::vector<double>{0, 0}, measure, errors);
+  cones.run(p, nullptr, mlcp::default_settings().facets, {}, std::vector<double>{0, 0}, measure, errors);
   EXPECT_NEAR(errors.cones, std::sqrt(0.5), 1e-12) << "dist(w, K*) of a cone with µ = 1";
+}
+
+/// Coulomb's law multiplies the slip by µ: the last bit of a slip beside terms of 1 decides whether w̃ is in K* or far from it.
+TEST(Errors, SlacksThatALargeFrictionMultipliesAreExact) {
+  mlcp::Problem p = empty_problem();
+  add_body(p, 3, 1);
+  add_row(p, {{0, 1}}, 1e-3);
+  add_row(p, {{0, 1}, {1, 1}, {2, 1}}, 0, {-mlcp::infinity, mlcp::infinity});
+  const std::int32_t row = 0;
+  const mlcp_friction model = MLCP_FRICTION_COULOMB;
+  const double mu = 1e12, bound = 0;
+  mlcp::contacts_declare(p, 1, 2, &row, {&model, &mu, &bound, nullptr});
+  const std::vector<double> v{0x1p-60, 1, -1}, no_force{0, 0};
+  mlcp::Measure measure{mlcp::Memory()};
+  mlcp::Errors errors = measure.run(p, nullptr, v, no_force);
+  ASSERT_EQ(measure.w[1], 0) << "in double";
+  mlcp::ConeMeasure cones{mlcp::Memory()};
+  cones.run(p, nullptr, mlcp::default_settings().facets, v, no_force, measure, errors);
+  EXPECT_EQ(measure.w[1], 0x1p-60);
 }
 
 /// Two rows of one contact: the error of each is relative to the larger scale, that of a third row to its own.
