@@ -70,20 +70,30 @@ void Dissection::leaf(Piece piece) {
   for (std::int32_t s = piece.first; s < piece.last; ++s) home[sequence_[s]] = t;
 }
 
-/// Splits a piece into its connected part and the rest, or into two halves and a thin separator; false: neither is to be had.
+/// A piece that the search of its first variable has not reached all of becomes its connected parts.     cost: O(entries), however many there are.
+void Dissection::split_apart(const QuotientGraph& g, Piece piece, std::int32_t label) {
+  apart_.clear();
+  for (std::int32_t s = piece.first; s < piece.last; ++s) {
+    const std::int32_t root = sequence_[s];
+    if (piece_[root] != label) continue;
+    if (s > piece.first) search(g, root, label);
+    const std::int32_t first = piece.first + static_cast<std::int32_t>(apart_.size());
+    for (const std::int32_t x : front_) {
+      piece_[x] = 0;
+      apart_.push_back(x);
+    }
+    stack_.push_back({first, first + reached_, piece.parent});
+  }
+  std::copy(apart_.begin(), apart_.end(), sequence_.begin() + piece.first);
+}
+
+/// Splits a piece into its connected parts, or into two halves and a thin separator; false: neither is to be had.
 bool Dissection::split(const QuotientGraph& g, Piece piece) {
   const std::int32_t size = piece.last - piece.first, label = ++label_;
   for (std::int32_t s = piece.first; s < piece.last; ++s) piece_[sequence_[s]] = label;
   const std::int32_t far = search(g, sequence_[piece.first], label);
-  Array<std::int32_t>& front = front_;
   if (reached_ < size) {
-    for (const std::int32_t x : front) piece_[x] = 0;
-    std::int32_t rest = piece.first + reached_;
-    for (std::int32_t s = piece.first; s < piece.last; ++s)
-      if (piece_[sequence_[s]] == label) front.push_back(sequence_[s]);
-    std::copy(front.begin(), front.end(), sequence_.begin() + piece.first);
-    stack_.push_back({piece.first, rest, piece.parent});
-    stack_.push_back({rest, piece.last, piece.parent});
+    split_apart(g, piece, label);
     return true;
   }
   // velocities come first among the variables; a part that has some is no chain of bodies, and minimum degree serves it better

@@ -15,7 +15,7 @@ struct Dissection {
   Array<std::int32_t> below;    ///< tree node → number of variables in the subtrees under it; they all come first
 
   explicit Dissection(const Memory& m)
-      : home(m), parent(m), below(m), piece_(m), sequence_(m), front_(m), level_(m), visited_(m), stack_(m), level_start_(m), separator_(m) {}
+      : home(m), parent(m), below(m), piece_(m), sequence_(m), front_(m), apart_(m), level_(m), visited_(m), stack_(m), level_start_(m), separator_(m) {}
   /// throws: Stopped
   void cut(const QuotientGraph& graph, Poll poll = {});
 
@@ -26,6 +26,7 @@ struct Dissection {
   std::int32_t search(const QuotientGraph& graph, std::int32_t root, std::int32_t label);
   bool touches_next_level(const QuotientGraph& graph, std::int32_t x, std::int32_t label) const;
   bool split(const QuotientGraph& graph, Piece piece);
+  void split_apart(const QuotientGraph& graph, Piece piece, std::int32_t label);
   bool split_at_level(const QuotientGraph& graph, Piece piece, std::int32_t label);
   bool split_bulky(const QuotientGraph& graph, Piece piece);
   void leaf(Piece piece);
@@ -33,6 +34,7 @@ struct Dissection {
   Array<std::int32_t> piece_;     // variable → label of the piece it is in
   Array<std::int32_t> sequence_;  // variables, pieces contiguous
   Array<std::int32_t> front_;     // in order of visiting
+  Array<std::int32_t> apart_;     // variables of a piece, by connected part
   Array<std::int32_t> level_, visited_;
   Array<Piece> stack_;
   Array<std::int32_t> level_start_;

@@ -10,11 +10,14 @@ void MinimumDegree::load(const QuotientGraph& g, const Dissection& d) {
   start_.resize(total);
   length_.resize(total);
   element_count_.assign(total, 0);
-  weight_.assign(total, 1);
+  weight_.assign(g.weight.span());
+  weight_.resize(total);
+  left_ = 0;
+  for (const std::int32_t weight : g.weight) left_ += weight;
   degree_.assign(total, 0);
   stamp_.assign(total, 0);
   pending_.assign(variables_, 0);
-  head_.assign(variables_ + 1, -1);
+  head_.assign(left_ + 1, -1);
   next_.assign(variables_, -1);
   previous_.assign(variables_, -1);
   member_.assign(variables_, -1);
@@ -26,7 +29,6 @@ void MinimumDegree::load(const QuotientGraph& g, const Dissection& d) {
   free_ = 0;
   mark_ = 1;
   lowest_ = 0;
-  left_ = variables_;
   order.clear();
   for (std::int32_t i = 0; i < variables_; ++i) {
     tail_[i] = i;
@@ -37,10 +39,12 @@ void MinimumDegree::load(const QuotientGraph& g, const Dissection& d) {
       degree_[i] += g.element_pointers[e + 1] - g.element_pointers[e] - 1;
     }
     element_count_[i] = static_cast<std::int32_t>(free_) - start_[i];
-    for (std::int32_t t = g.neighbour_pointers[i]; t < g.neighbour_pointers[i + 1]; ++t) iw_[free_++] = g.neighbours[t];
-    degree_[i] += g.neighbour_pointers[i + 1] - g.neighbour_pointers[i];
+    for (std::int32_t t = g.neighbour_pointers[i]; t < g.neighbour_pointers[i + 1]; ++t) {
+      iw_[free_++] = g.neighbours[t];
+      degree_[i] += g.weight[g.neighbours[t]];
+    }
     length_[i] = static_cast<std::int32_t>(free_) - start_[i];
-    degree_[i] = std::min(degree_[i], variables_ - 1);
+    degree_[i] = std::min(degree_[i], left_ - g.weight[i]);
   }
   for (std::int32_t e = 0; e < g.elements; ++e) {
     const std::int32_t id = variables_ + e;
@@ -210,7 +214,7 @@ bool MinimumDegree::same_lists(std::int32_t i, std::int32_t j) const {
 /// Variables of Lp with the same lists are one from now on. Marks of elements and variables share stamp_.
 void MinimumDegree::merge_indistinguishable(std::int32_t p) {
   const std::int32_t begin = start_[p], end = begin + length_[p];
-  mark_ += variables_ + 1;  // above every stamp of measure_overlaps
+  mark_ += static_cast<std::int64_t>(head_.size());  // above every stamp of measure_overlaps
   for (std::int32_t s = begin; s < end; ++s) {
     const std::int32_t i = iw_[s];
     if (weight_[i] == 0 || pending_[i]) continue;
@@ -268,7 +272,7 @@ void MinimumDegree::eliminate(std::int32_t i, const QuotientGraph& g, const Diss
   const auto velocities = static_cast<std::int32_t>(g.own_pointers.size()) - 1;
   for (std::int32_t x = i; x >= 0; x = member_[x]) {
     order.push_back(x);
-    --left_;
+    left_ -= g.weight[x];
     if (x < velocities)
       for (std::int32_t t = g.own_pointers[x]; t < g.own_pointers[x + 1]; ++t)
         if (g.waits[g.own_rows[t]]) release(g.own_rows[t]);

@@ -36,7 +36,7 @@ class MinimumDegree {
 
   Array<std::uint8_t> kind_;
   Array<std::int32_t> start_, length_, element_count_;  // lists in iw_; a variable's elements first
-  Array<std::int32_t> weight_;                          // variables in a supervariable; negative: in the new element; 0: gone
+  Array<std::int32_t> weight_;                          // nodes that a supervariable stands for; negative: in the new element; 0: gone
   Array<std::int32_t> degree_;
   Array<std::int64_t> stamp_;                           // element: stamp + weight of its part outside the new element
   Array<std::int32_t> pending_;                         // what a variable still waits for

@@ -19,39 +19,43 @@ void Ordering::collect_free(const Problem& problem, const Selection& selection) 
 
 void Ordering::compute(const Problem& problem, const Selection& selection, const Crowding& crowding, const Poll& poll) {
   const std::int32_t n = problem.n();
-  const SparseView jacobian = problem.jacobian_view();
   collect_free(problem, selection);
   graph_.build(problem, selection, crowding);
   dissection_.cut(graph_, poll);
   degree_.run(graph_, dissection_, poll);
 
-  // velocities of each element
-  member_pointers_.assign(graph_.elements + 1, 0);
-  for (std::int32_t j = 0; j < n; ++j)
-    if (graph_.element_of[j] >= 0) ++member_pointers_[graph_.element_of[j] + 1];
-  for (std::int32_t e = 0; e < graph_.elements; ++e) member_pointers_[e + 1] += member_pointers_[e];
-  members_.resize(member_pointers_[graph_.elements]);
-  for (std::int32_t j = n - 1; j >= 0; --j)
-    if (graph_.element_of[j] >= 0) members_[--member_pointers_[graph_.element_of[j] + 1]] = j;
+  // velocities of each element, behind them rows of each variable
+  const std::int32_t elements = graph_.elements, runs = elements + graph_.variables;
+  member_pointers_.assign(runs + 1, 0);
+  const auto for_each_member = [&](auto visit) {
+    for (std::int32_t i = problem.m() - 1; i >= 0; --i)
+      if (graph_.leader[i] >= 0) visit(elements + graph_.leader[i], n + i);
+    for (std::int32_t j = n - 1; j >= 0; --j)
+      if (graph_.element_of[j] >= 0) visit(graph_.element_of[j], j);
+  };
+  for_each_member([&](std::int32_t run, std::int32_t) { ++member_pointers_[run + 1]; });
+  for (std::int32_t run = 0; run < runs; ++run) member_pointers_[run + 1] += member_pointers_[run];
+  members_.resize(member_pointers_[runs]);
+  for_each_member([&](std::int32_t run, std::int32_t node) { members_[--member_pointers_[run + 1]] = node; });
 
   order.clear();
-  const auto place_element = [&](std::int32_t e) {
-    // filled from behind: run e is now at member_pointers_[e + 1] .. member_pointers_[e + 2]
-    const std::int32_t end = e + 2 <= graph_.elements ? member_pointers_[e + 2] : static_cast<std::int32_t>(members_.size());
-    for (std::int32_t t = member_pointers_[e + 1]; t < end; ++t) {
+  const auto place = [&](std::int32_t run) {
+    // filled from behind: run is now at member_pointers_[run + 1] .. member_pointers_[run + 2]
+    const std::int32_t end = run + 2 <= runs ? member_pointers_[run + 2] : static_cast<std::int32_t>(members_.size());
+    for (std::int32_t t = member_pointers_[run + 1]; t < end; ++t) {
       if (placed_[members_[t]]) return;
       placed_[members_[t]] = 1;
       order.push_back(members_[t]);
     }
   };
+  // rows of one velocity before all others: none comes between velocities that would be one run of columns
+  for (std::int32_t x = 0; x < graph_.variables && graph_.node[x] < n; ++x) place(elements + x);
   for (const std::int32_t x : degree_.order) {
-    const std::int32_t node = graph_.node[x];
-    if (node >= n)
-      for (std::int32_t t = jacobian.pointers[node - n]; t < jacobian.pointers[node - n + 1]; ++t)
-        if (const std::int32_t e = graph_.element_of[jacobian.indices[t]]; e >= 0) place_element(e);
-    order.push_back(node);
+    for (std::int32_t t = graph_.variable_pointers[x]; t < graph_.variable_pointers[x + 1]; ++t) place(graph_.variable_elements[t]);
+    place(elements + x);
+    order.push_back(graph_.node[x]);
   }
-  for (std::int32_t e = 0; e < graph_.elements; ++e) place_element(e);
+  for (std::int32_t e = 0; e < elements; ++e) place(e);
 }
 
 void Ordering::carry(const Problem& problem, const Selection& selection, const Crowding& crowding, const KktPattern& last, const EliminationTree& tree, Poll poll) {

@@ -140,7 +140,7 @@ Real cone_error(const mlcp::Contact& c, const Vector& w, const Vector& gamma, co
   power += normal * gamma[c.row];
   const Real dual = mu * slip <= normal ? 0 : slip <= -mu * normal ? std::hypot(normal, slip) : (mu * slip - normal) / std::sqrt(1 + mu * mu);
   const Real error = std::max({mean * distance(gamma[c.row], force, mu), dual, g > 0 ? std::fabs(power) / g : Real(0)});
-  return largest > 0 ? error / largest : error;
+  return error <= rounding_of_denormals ? 0 : largest > 0 ? error / largest : error;
 }
 
 /// Σ|terms| and w of every row, and its scale a: see the header. w in more than long double: the law of Coulomb takes µ times the slip.

@@ -172,5 +172,19 @@ TEST(Dissection, LargeBulkyGraphsAreCut) {
   EXPECT_TRUE(std::equal(c.dissection.home.begin(), c.dissection.home.end(), again.dissection.home.begin())) << "not the same every time";
 }
 
+/// By what it tells whoever may stop it: a search of the whole rest for each part would be 200 times as much.
+TEST(Dissection, CostDoesNotGrowWithTheNumberOfParts) {
+  mlcp::Problem p = empty_problem();
+  for (int i = 0; i < 5000; ++i) {
+    add_body(p, 1, 1);
+    add_row(p, {{i, 1}});
+  }
+  Cut c(p);
+  int asked = 0;
+  c.dissection.cut(c.graph, mlcp::Poll([](void* count) { return ++*static_cast<int*>(count) < 0; }, &asked));
+  EXPECT_LE(asked, 1);
+  expect_separators(c);
+}
+
 }  // namespace
 }  // namespace support

@@ -125,6 +125,40 @@ TEST(QuotientGraph, RowsCoupledByComplianceAreNeighbours) {
   EXPECT_TRUE(neighbours_of(g, 2).empty());
 }
 
+/// Two bodies, ten times two equal rows between them and five on one velocity alone: crowded, unless the pivoting method is to run.
+struct Crowd {
+  mlcp::Problem problem = empty_problem();
+  mlcp::Selection selection{mlcp::Memory()};
+  mlcp::Crowding crowding{mlcp::Memory()};
+  mlcp::QuotientGraph graph{mlcp::Memory()};
+  explicit Crowd(bool exact, bool coupled = false) {
+    for (int b = 0; b < 2; ++b) add_body(problem, 3, 1);
+    for (int i = 0; i < 20; ++i) add_row(problem, {{i / 2 % 3, 1.0 + i}, {3 + i / 2 % 2, -1}});
+    for (int i = 0; i < 5; ++i) add_row(problem, {{5, 1.0 + i}});
+    if (coupled) set_sigma(problem, Eigen::MatrixXd::Constant(25, 25, 0.1));
+    selection.take(problem, nullptr);
+    crowding.find(problem, selection, exact);
+    graph.build(problem, selection, crowding);
+  }
+};
+
+TEST(QuotientGraph, EqualRowsOfACrowdAreOneVariableAndRowsOfOneVelocityNone) {
+  const mlcp::QuotientGraph g = Crowd(false).graph;
+  EXPECT_EQ(g.elements, 0);
+  EXPECT_EQ(g.variables, 6 + 10);
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(g.leader[i], i % 2 == 0 ? -1 : g.variable_of[6 + i - 1]);
+  for (int i = 20; i < 25; ++i) EXPECT_EQ(g.leader[i], g.variable_of[5]);
+  for (int x = 0; x < g.variables; ++x) EXPECT_EQ(g.weight[x], x < 6 ? 1 : 2);
+}
+
+TEST(QuotientGraph, RowsThatPivotOrAreCoupledStandForThemselves) {
+  for (const Crowd& c : {Crowd(true), Crowd(false, true)}) {
+    for (const int leader : c.graph.leader) EXPECT_EQ(leader, -1);
+    for (const int weight : c.graph.weight) EXPECT_EQ(weight, 1);
+  }
+  EXPECT_EQ(Crowd(false, true).graph.variables, 6 + 25);
+}
+
 TEST(QuotientGraph, NoBodiesNoRows) {
   const mlcp::QuotientGraph g = graph_of(empty_problem());
   EXPECT_EQ(g.variables, 0);
