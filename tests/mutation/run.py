@@ -21,6 +21,7 @@ DENSE_NEWTON, DENSE_SIMPLEX = "core/solve/dense_newton.cpp", "core/solve/dense_s
 NEWTON, PROXIMAL, INTERIOR = ("core/solve/newton.cpp", "core/solve/proximal.cpp", "core/solve/interior_point.cpp")
 EXTENDED, SYMBOLIC = ("core/solve/extended_simplex.cpp", "core/analyze/symbolic.cpp")
 ORDERING, LINEAGE, ANALYSIS = ("core/analyze/ordering.cpp", "core/analyze/lineage.cpp", "core/analyze/analysis.cpp")
+QUOTIENT = "core/analyze/quotient_graph.cpp"
 TESTS = ("unit_tests", "property_tests")
 
 # name: file, text that stands there exactly once, what takes its place. Not among them: what only costs steps, as Newton's patience, which the limit of
@@ -70,6 +71,7 @@ MUTATIONS = {
     "dense: crowded islands taken": ("core/dense_stage.cpp", " && seldom_dependent(rows, velocities)", ""),
     "dense: many active rows": (DENSE_NEWTON, "  if (too_many()) return false;\n", ""),
     "dense: negative pivots rest": (PANELS, " || (least[c] > 0 && -d > least[c])", ""),
+    "dense: pivots without an inverse": (PANELS, "if (!finite || ", "if ("),
     "update: stops at the first run": (FACTOR, "first = symbolic_->parent[symbolic_->run_end[first] - 1])", "first = -1)"),
     "update: scale of the rest": (KERNELS, "sigma *= d / updated;", "sigma *= updated / d;"),
     "update: pivot stays": (KERNELS, "f.pivot[j] = updated;", ""),
@@ -148,6 +150,11 @@ MUTATIONS = {
     "carried order: where any two meet": (ORDERING, "crowded ? std::min(at, p) : lineage_.meet(at, p)", "std::max(at, p)"),
     "carried order: kept whatever it fills in": (ANALYSIS, "if (symbolic.entries() <= allowed_entries())", "if (true)"),
     "carried order: never tried": (ANALYSIS, "if (!done_ || exact != exact_ || pause_ > 0)", "if (true)"),
+    "crowded order: equal rows weigh as one": (QUOTIENT, "else if (leader[i] >= velocities_) ++weight[leader[i]];", ""),
+    "crowded order: rows of one velocity among equal rows": (QUOTIENT, "if (count_of_dynamic == 1) return velocity;", ""),
+    "crowded order: coupled rows follow others": (QUOTIENT, "if (!alone(i)) return -1;", ""),
+    "crowded order: followers are lost": (ORDERING, "    place(elements + x);\n    order.push_back", "    order.push_back"),
+    "cones: slacks of a large friction in double": ("core/measure/cones.cpp", "constexpr double steep = 1e3;", "constexpr double steep = 1e300;"),
     "dense refinement: beyond a bound": ("core/dense_stage.cpp", "gamma = std::clamp(gamma + s.x_rows()[t], s.lo[i], s.hi[i]);", "gamma = gamma + s.x_rows()[t];"),
 }
 
