@@ -82,7 +82,7 @@ void Dissection::split_apart(const QuotientGraph& g, Piece piece, std::int32_t l
       piece_[x] = 0;
       apart_.push_back(x);
     }
-    stack_.push_back({first, first + reached_, piece.parent});
+    stack_.push_back({first, first + reached_, piece.parent, true});
   }
   std::copy(apart_.begin(), apart_.end(), sequence_.begin() + piece.first);
 }
@@ -91,10 +91,13 @@ void Dissection::split_apart(const QuotientGraph& g, Piece piece, std::int32_t l
 bool Dissection::split(const QuotientGraph& g, Piece piece) {
   const std::int32_t size = piece.last - piece.first, label = ++label_;
   for (std::int32_t s = piece.first; s < piece.last; ++s) piece_[sequence_[s]] = label;
-  const std::int32_t far = search(g, sequence_[piece.first], label);
-  if (reached_ < size) {
-    split_apart(g, piece, label);
-    return true;
+  std::int32_t far = sequence_[piece.last - 1];
+  if (!piece.searched) {
+    far = search(g, sequence_[piece.first], label);
+    if (reached_ < size) {
+      split_apart(g, piece, label);
+      return true;
+    }
   }
   // velocities come first among the variables; a part that has some is no chain of bodies, and minimum degree serves it better
   const auto velocities = static_cast<std::int32_t>(g.own_pointers.size()) - 1;
@@ -128,7 +131,7 @@ bool Dissection::split_at_level(const QuotientGraph& g, Piece piece, std::int32_
   for (auto x = separator; x < last; ++x) home[*x] = t;
   const auto near = static_cast<std::int32_t>(separator - front.begin()), until = static_cast<std::int32_t>(last - front.begin());
   std::copy(front.begin(), front.end(), sequence_.begin() + piece.first);
-  if (near) stack_.push_back({piece.first, piece.first + near, t});
+  if (near) stack_.push_back({piece.first, piece.first + near, t, true});  // all of it was reached through itself
   if (until < size) stack_.push_back({piece.first + until, piece.last, t});
   return true;
 }

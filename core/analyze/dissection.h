@@ -22,6 +22,7 @@ struct Dissection {
  private:
   struct Piece {
     std::int32_t first, last, parent;
+    bool searched = false;  // its variables are in the order in which a search of it from the first one visits them: it is connected
   };
   std::int32_t search(const QuotientGraph& graph, std::int32_t root, std::int32_t label);
   bool touches_next_level(const QuotientGraph& graph, std::int32_t x, std::int32_t label) const;
