@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "analyze/crowding.h"
 
 namespace mlcp {
 namespace {
@@ -16,11 +19,17 @@ constexpr std::int32_t many_velocities = 400;
 /// For so many rows on none, whose A is there already, if few of them are active.
 constexpr std::int32_t many_rows = 400;
 constexpr bool seldom_dependent(std::int32_t rows, std::int32_t velocities) { return 10 * rows <= 11 * velocities; }
+/// Crowded ones of up to so many velocities are for interior points, whose steps cost as much as the velocities, not the rows.
+constexpr std::int32_t crowded_velocities = medium;
 /// Errors above this are refined, and left to the sparse way if that does not help.
 constexpr double refined = 1e-13;
 /// A momentum error up to this is rounding.
 constexpr double settled = 2e-15;
 constexpr int most_refinements = 3;
+/// Of the error before: less of it has to be left, or there is nothing to be had by refinement.
+constexpr double worth_it = 0.5;
+/// Of the tolerance: rows of crowded islands may contradict each other by that much, as in Newton::finish.
+constexpr double forgiven_part = 0.1;
 /// Of the terms of a momentum: a thousandth of a rounding.
 constexpr double lost = 2.5e-19;
 /// |w| up to this, relative to the scale of its error: the row holds.
@@ -42,26 +51,42 @@ double DenseStage::density(const Problem& problem, std::int32_t c) const {
                : count(sigma, row, components.row_count(c)) / (m * m);
 }
 
+bool DenseStage::couples_rows(const Problem& problem, std::int32_t c) const {
+  const SparseView sigma = problem.compliance_view();
+  for (const std::int32_t i : components.rows_of(c))
+    for (std::int32_t t = sigma.pointers[i]; t < sigma.pointers[i + 1]; ++t)
+      if (sigma.indices[t] != i) return true;
+  return false;
+}
+
 bool DenseStage::takes(const SolveInput& input) {
   const Settings& s = input.settings;
   if (s.method != MLCP_METHOD_AUTO || s.trace || s.impulses != MLCP_IMPULSES_ANY || s.max_iterations > 0 || s.max_work > 0) return false;
   knew_ = !components.update(input.problem, input.enabled);
   prepared_ &= knew_;
-  if (knew_) return fits_;
+  const auto may = [&] { return fits_ && !(crowded_ && input.follows_shifts()); };
+  if (knew_) return may();
   fits_ = true;
+  crowded_ = false;
+  interior_.assign(components.count(), 0);
   for (std::int32_t c = 0; c < components.count() && fits_; ++c) {
     const std::int32_t velocities = components.velocity_count(c), rows = components.row_count(c), size = std::max(velocities, rows);
     fits_ = size <= small || (velocities == 0 && rows <= many_rows) || (rows <= medium && velocities <= many_velocities && seldom_dependent(rows, velocities)) ||
             (size <= medium && density(input.problem, c) >= hardly_sparse);
+    if (fits_ || velocities > crowded_velocities || !too_many(rows, velocities) || couples_rows(input.problem, c)) continue;
+    fits_ = crowded_ = interior_[c] = true;
   }
-  return fits_;
+  return may();
 }
 
 bool DenseStage::solve(const SolveInput& input, const Mask* start, Watch& watch, Crew& crew, Measure& measure, Result& result, Errors& errors,
                        Counts& counts) {
   const Problem& problem = input.problem;
   const std::int32_t count = components.count();
-  if (!prepared_) response_.prepare(problem, components);
+  if (!prepared_) {
+    response_.prepare(problem, components, interior_.span());
+    if (crowded_) normal_.prepare(problem, components, interior_.span());
+  }
   prepared_ = true;
   counts_.assign(count, Counts{});
   solved_.resize(count);
@@ -82,10 +107,18 @@ bool DenseStage::solve(const SolveInput& input, const Mask* start, Watch& watch,
     if (!solved_[c]) return false;
     counts += counts_[c];
   }
+  double before = infinity;
   for (int round = 0;; ++round) {
     errors = measure.end(problem, input.enabled, result.gamma.span(), input.contact_of_row, free, parts_.span());
     if (errors.largest() <= refined) break;
-    if (round == most_refinements) return false;
+    const bool helps = errors.largest() <= worth_it * std::exchange(before, errors.largest());
+    if (round == most_refinements || !helps) {
+      const double forgiven = forgiven_part * input.settings.tolerance;
+      for (std::int32_t c = 0; c < count; ++c)
+        if (!right_enough(c, forgiven)) return false;
+      if (errors.largest() <= forgiven) break;
+      return false;
+    }
     crew.run(count, tasks_, false, cost, [&](std::int32_t c) {
       solved_[c] = !refine(c, measure, round > 0, result);
       if (solved_[c]) return;
@@ -98,7 +131,24 @@ bool DenseStage::solve(const SolveInput& input, const Mask* start, Watch& watch,
   return true;
 }
 
+bool DenseStage::right_enough(std::int32_t c, double forgiven) const {
+  return parts_[c].complete && parts_[c].errors.largest() <= (interior_[c] ? std::max(refined, forgiven) : refined);
+}
+
+bool DenseStage::solve_crowded(const SolveInput& input, const Mask* start, std::int32_t c, Result& result) {
+  if (!normal_.load(input.problem, c)) return false;
+  NormalIsland& island = normal_.island(c);
+  if (!DenseInteriorPoint(island, zero_slack(input.settings), forgiven_part * input.settings.tolerance, counts_[c]).solve(input.problem, start)) return false;
+  for (std::int32_t p = 0; p < island.n; ++p) result.v[island.velocity(p)] = island.v[p];
+  for (std::int32_t i = 0; i < island.m; ++i) {
+    result.gamma[island.row[i]] = island.gamma[i];
+    result.mask.state[island.row[i]] = row_state(island.state[i]);
+  }
+  return true;
+}
+
 bool DenseStage::solve_island(const SolveInput& input, const Mask* start, std::int32_t c, Result& result) {
+  if (interior_[c]) return solve_crowded(input, start, c, result);
   if (!response_.compute(input.problem, c)) return false;
   DenseIsland& island = response_.island(c);
   DenseNewton newton(island, zero_slack(input.settings), counts_[c]);
@@ -116,12 +166,20 @@ bool DenseStage::solve_island(const SolveInput& input, const Mask* start, std::i
 /// One step against the residuals that the measurement has found. Once momentum is rounding its residual is left out, as in Refinement: then the
 /// correction is as small as the rows' own residuals.  false: there is nothing to do.
 bool DenseStage::refine(std::int32_t c, const Measure& measure, bool rows_alone, Result& result) {
-  DenseIsland& s = response_.island(c);
   double momentum = 0, rows = 0;
-  for (std::int32_t p = 0; p < s.n; ++p) momentum = std::max(momentum, measure.velocity_error(s.velocity(p)));
-  for (std::int32_t i = 0; i < s.m; ++i) rows = std::max(rows, measure.error[s.row[i]]);
+  for (const std::int32_t j : components.velocities_of(c)) momentum = std::max(momentum, measure.velocity_error(j));
+  for (const std::int32_t i : components.rows_of(c)) rows = std::max(rows, measure.error[i]);
   if (std::max(momentum, rows) <= refined) return false;
   rows_alone |= momentum <= settled;
+  if (interior_[c])
+    correct_crowded(c, measure, rows_alone, result);
+  else
+    correct(c, measure, rows_alone, result);
+  return true;
+}
+
+void DenseStage::correct(std::int32_t c, const Measure& measure, bool rows_alone, Result& result) {
+  DenseIsland& s = response_.island(c);
   for (std::int32_t p = 0; p < s.n; ++p) s.x[p] = rows_alone ? 0 : -measure.momentum_residual(s.velocity(p));
   for (std::int32_t t = 0; t < *s.members; ++t) s.x_rows()[t] = -measure.w[s.row[s.member[t]]];
   DenseResponse::correct(s);
@@ -131,21 +189,31 @@ bool DenseStage::refine(std::int32_t c, const Measure& measure, bool rows_alone,
     double& gamma = result.gamma[s.row[i]];
     gamma = std::clamp(gamma + s.x_rows()[t], s.lo[i], s.hi[i]);  // what is within rounding of a bound does not leave it
   }
-  return true;
+}
+
+void DenseStage::correct_crowded(std::int32_t c, const Measure& measure, bool rows_alone, Result& result) {
+  NormalIsland& s = normal_.island(c);
+  for (std::int32_t p = 0; p < s.n; ++p) s.momentum[p] = rows_alone ? 0 : -measure.momentum_residual(s.velocity(p));
+  for (std::int32_t i = 0; i < s.padded_rows(); ++i) s.dgamma[i] = i < s.m ? -measure.w[s.row[i]] : 0;
+  NormalEquations::solve(s);
+  for (std::int32_t p = 0; p < s.n; ++p) result.v[s.velocity(p)] += s.step[p];
+  for (std::int32_t i = 0; i < s.m; ++i) {
+    double& gamma = result.gamma[s.row[i]];
+    gamma = std::clamp(gamma + s.dgamma[i], s.lo[i], s.hi[i]);
+  }
 }
 
 /// As Refinement::stop: a velocity far below the rounding of its momentum is 0. A row without other terms is off by its whole size, however small steps make
 /// that, and each of them moves the velocities of all rows a little.
 void DenseStage::stop(std::int32_t c, const Measure& measure, Result& result) {
-  const DenseIsland& s = response_.island(c);
-  for (std::int32_t p = 0; p < s.n; ++p) {
-    const std::int32_t j = s.velocity(p);
+  for (const std::int32_t j : components.velocities_of(c)) {
     if (std::abs(measure.mass(j) * result.v[j]) <= lost * measure.momentum_scale(j)) result.v[j] = 0;
   }
 }
 
 /// As mark_redundant: rows that hold, rest, and have a Schur pivot of at most dependent_pivot · a.
 void DenseStage::mark_redundant(std::int32_t c, const Measure& measure, Result& result) {
+  if (interior_[c]) return;
   const DenseIsland& s = response_.island(c);
   for (std::int32_t i = 0; i < s.m; ++i) {
     const std::int32_t row = s.row[i];

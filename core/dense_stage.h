@@ -2,6 +2,7 @@
 #include "factorize/dense_response.h"
 #include "measure/errors.h"
 #include "report/result.h"
+#include "solve/dense_interior_point.h"
 #include "solve/dense_newton.h"
 #include "stage.h"
 
@@ -11,7 +12,7 @@ namespace mlcp {
 /// cannot solve to rounding it leaves to Stage.
 class DenseStage {
  public:
-  explicit DenseStage(const Memory& m) : components(m), response_(m), counts_(m), solved_(m), parts_(m), tasks_(m) {}
+  explicit DenseStage(const Memory& m) : components(m), response_(m), normal_(m), interior_(m), counts_(m), solved_(m), parts_(m), tasks_(m) {}
 
   Components components;
 
@@ -21,18 +22,25 @@ class DenseStage {
   bool knew() const { return knew_; }
   /// after true: result and errors hold an answer as good as rounding allows; only certificates, keys and outcomes are left to the caller.
   bool solve(const SolveInput& input, const Mask* start, Watch& watch, Crew& crew, Measure& measure, Result& result, Errors& errors, Counts& counts);
-  std::int64_t entries() const { return response_.entries(); }
+  std::int64_t entries() const { return response_.entries() + normal_.entries(); }
 
  private:
   bool solve_island(const SolveInput& input, const Mask* start, std::int32_t c, Result& result);
+  bool solve_crowded(const SolveInput& input, const Mask* start, std::int32_t c, Result& result);
   bool refine(std::int32_t c, const Measure& measure, bool rows_alone, Result& result);
+  void correct(std::int32_t c, const Measure& measure, bool rows_alone, Result& result);
+  void correct_crowded(std::int32_t c, const Measure& measure, bool rows_alone, Result& result);
+  bool right_enough(std::int32_t c, double forgiven) const;
   void stop(std::int32_t c, const Measure& measure, Result& result);
   void mark_redundant(std::int32_t c, const Measure& measure, Result& result);
 
   double density(const Problem& problem, std::int32_t c) const;
+  bool couples_rows(const Problem& problem, std::int32_t c) const;
 
-  bool knew_ = false, fits_ = false, prepared_ = false;
+  bool knew_ = false, fits_ = false, prepared_ = false, crowded_ = false;
   DenseResponse response_;
+  NormalEquations normal_;
+  Array<std::uint8_t> interior_;  // by component: crowded, for interior points; the others are for active sets
   Array<Counts> counts_;        // by component
   Array<std::uint8_t> solved_;  // likewise, to begin with; then whether nothing was left to refine
   Array<Measure::Part> parts_;  // likewise

@@ -11,9 +11,9 @@ namespace {
 /// Below so many rows the dense triangle of the rows costs nothing, and every method runs in one order.
 constexpr std::int32_t fewest_rows = 20;
 
-bool too_many(std::int64_t rows, std::int64_t velocities) { return velocities > 0 && rows >= fewest_rows && 2 * rows > 3 * velocities; }
-
 }  // namespace
+
+bool too_many(std::int64_t rows, std::int64_t velocities) { return velocities > 0 && rows >= fewest_rows && 2 * rows > 3 * velocities; }
 
 void Crowding::find(const Problem& problem, const Selection& selection, bool exact) {
   const std::int32_t n = problem.n(), m = problem.m();

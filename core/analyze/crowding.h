@@ -3,6 +3,9 @@
 
 namespace mlcp {
 
+/// What is crowded: see Crowding.
+bool too_many(std::int64_t rows, std::int64_t velocities);
+
 /// Islands with clearly more rows than velocities, and not just a few. There the active rows depend on each other, the proximal method adds ε to every
 /// row, and K is quasi-definite: pivots exist in any order (Vanderbei 1995), and the one that fills least eliminates most rows before the
 /// velocities that they touch. Elsewhere rows come after their velocities and no ε is needed.

@@ -17,14 +17,16 @@ std::int64_t integer_count(std::int64_t m, std::int64_t blocks, std::int64_t pan
 
 }  // namespace
 
-void DenseResponse::prepare(const Problem& problem, const Components& components) {
+void DenseResponse::prepare(const Problem& problem, const Components& components, std::span<const std::uint8_t> left_out) {
   components_ = &components;
+  const auto stays = [&](std::int32_t c) { return !left_out.empty() && left_out[c] != 0; };
   const std::int32_t n = problem.n(), count = components.count();
   places_.resize(count + 1);
   local_.assign(n + problem.m(), -1);
   std::int64_t reals = 0, integers = 0;
   for (std::int32_t c = 0; c < count; ++c) {
     places_[c] = {reals, integers, 0, components.row_pointers[c]};
+    if (stays(c)) continue;
     const std::int32_t own_n = components.velocity_count(c), own_m = components.row_count(c);
     const std::int32_t blocks = BlockLdl::blocks_of(own_n), panels = BlockLdl::blocks_of(own_m);
     reals += real_count(own_m, blocks, panels);
@@ -40,8 +42,9 @@ void DenseResponse::prepare(const Problem& problem, const Components& components
   islands_.resize(count);
   Slot* next = slots_.data();
   for (std::int32_t c = 0; c < count; ++c) {
-    DenseIsland& s = islands_[c] = lay_out(c);
     places_[c].slots = next - slots_.data();
+    if (stays(c)) continue;
+    DenseIsland& s = islands_[c] = lay_out(c);
     next = find_envelopes(problem, s, next);
   }
   places_[count].slots = next - slots_.data();

@@ -48,8 +48,8 @@ class DenseResponse {
  public:
   explicit DenseResponse(const Memory& m) : places_(m), local_(m), slots_(m), reals_(m), integers_(m), members_(m), states_(m), islands_(m) {}
 
-  /// Room for every component, and what follows from the pattern. allocates
-  void prepare(const Problem& problem, const Components& components);
+  /// Room for every component but those that `left_out` names, and what follows from the pattern. allocates
+  void prepare(const Problem& problem, const Components& components, std::span<const std::uint8_t> left_out = {});
   DenseIsland& island(std::int32_t c) { return islands_[c]; }
   std::int64_t entries() const { return static_cast<std::int64_t>(reals_.size()); }
 

@@ -56,6 +56,11 @@ struct Kernels {
   void (*panel_scale)(std::int64_t count, const double* y, const double* inverse, const double* k, double* scaled, double* sum);
   /// tile[stride · r + lane] := Σ_q x[4q + r] y[4q + lane] over `count` entries q; mirror[stride · lane + r] the same, before that.
   void (*panel_product)(std::int64_t count, const double* x, const double* y, std::int64_t stride, double* tile, double* mirror);
+  /// For a panel of four rows of J, `count` tiles of four velocities each, with row q at tile[4q], by ascending block:
+  /// f += JᵀWJ, entries on and below the diagonal (what is above it in a block is of no effect);   y[0..3] += J x;   x += Jᵀy.
+  void (*tiles_square)(const BlockLdl&, std::int32_t count, const std::int32_t* block, const double* tiles, const double* weight);
+  void (*tiles_times)(std::int32_t count, const std::int32_t* block, const double* tiles, const double* x, double* y);
+  void (*tiles_transposed)(std::int32_t count, const std::int32_t* block, const double* tiles, const double* y, double* x);
   /// A principal pivot on p of the symmetric tableau T, as Tableau::sweep: the lower triangle, in rows of `stride` entries, a multiple of four. sign: 1
   /// takes p in, −1 out. column: room for `stride` entries.     cost: size² / 2
   void (*sweep)(std::int64_t size, std::int64_t stride, double* t, std::int64_t p, double sign, double* column);

@@ -8,7 +8,8 @@
 namespace mlcp {
 
 const Kernels avx2_kernels{forward,       combine,        products,       backward,    rank_one,      panel_forward, block_eliminate,
-                               block_forward, block_backward, panel_subtract, panel_scale, panel_product, sweep};
+                               block_forward, block_backward, panel_subtract, panel_scale, panel_product, tiles_square,
+                               tiles_times, tiles_transposed, sweep};
 
 }  // namespace mlcp
 #endif

@@ -145,6 +145,42 @@ void panel_product(std::int64_t count, const double* x, const double* y, std::in
   for (int r = 0; r < 4; ++r) *reinterpret_cast<Lanes*>(tile + r * stride) = s[r];
 }
 
+void tiles_square(const BlockLdl& f, std::int32_t count, const std::int32_t* block, const double* tiles, const double* weight) {
+  for (std::int32_t a = 0; a < count; ++a) {
+    Lanes weighed[4];
+    load_block(tiles + 16 * std::int64_t{a}, weighed);
+    for (int q = 0; q < 4; ++q) weighed[q] *= weight[q];
+    for (std::int32_t b = 0; b <= a; ++b) {
+      double* const to = block_of(f, block[a]) + 16 * std::int64_t{block[b]};
+      const double* const tile = tiles + 16 * std::int64_t{b};
+      Lanes s[4];
+      load_block(to, s);
+      for (int q = 0; q < 4; ++q)
+        for (int c = 0; c < 4; ++c) s[c] += tile[4 * q + c] * weighed[q];
+      store_block(s, to);
+    }
+  }
+}
+
+void tiles_times(std::int32_t count, const std::int32_t* block, const double* tiles, const double* x, double* y) {
+  Lanes s[4] = {};
+  for (std::int32_t t = 0; t < count; ++t, tiles += 16) {
+    const Lanes four = *reinterpret_cast<const Lanes*>(x + 4 * std::int64_t{block[t]});
+    for (int q = 0; q < 4; ++q) s[q] += *reinterpret_cast<const Lanes*>(tiles + 4 * q) * four;
+  }
+  const Lanes even{s[0][0], s[1][0], s[2][0], s[3][0]}, odd{s[0][1], s[1][1], s[2][1], s[3][1]};
+  const Lanes next{s[0][2], s[1][2], s[2][2], s[3][2]}, last{s[0][3], s[1][3], s[2][3], s[3][3]};
+  *reinterpret_cast<Lanes*>(y) += (even + odd) + (next + last);
+}
+
+void tiles_transposed(std::int32_t count, const std::int32_t* block, const double* tiles, const double* y, double* x) {
+  for (std::int32_t t = 0; t < count; ++t, tiles += 16) {
+    Lanes s[4];
+    load_block(tiles, s);
+    *reinterpret_cast<Lanes*>(x + 4 * std::int64_t{block[t]}) += (s[0] * y[0] + s[1] * y[1]) + (s[2] * y[2] + s[3] * y[3]);
+  }
+}
+
 void sweep(std::int64_t size, std::int64_t stride, double* t, std::int64_t p, double sign, double* column) {
   for (std::int64_t i = 0; i < p; ++i) column[i] = t[p * stride + i];
   for (std::int64_t i = p; i < size; ++i) column[i] = t[i * stride + p];

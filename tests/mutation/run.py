@@ -22,7 +22,7 @@ NEWTON, PROXIMAL, INTERIOR = ("core/solve/newton.cpp", "core/solve/proximal.cpp"
 EXTENDED, SYMBOLIC = ("core/solve/extended_simplex.cpp", "core/analyze/symbolic.cpp")
 ORDERING, LINEAGE, ANALYSIS = ("core/analyze/ordering.cpp", "core/analyze/lineage.cpp", "core/analyze/analysis.cpp")
 QUOTIENT = "core/analyze/quotient_graph.cpp"
-TESTS = ("unit_tests", "property_tests")
+TESTS = ("unit_tests", "property_tests", "capi_tests")
 
 # name: file, text that stands there exactly once, what takes its place. Not among them: what only costs steps, as Newton's patience, which the limit of
 # iterations and the same fallback replace; and what changes nothing: rows at rest have no part in a direction, so that they never block.
@@ -69,6 +69,17 @@ MUTATIONS = {
     "masses: any pattern is diagonal": ("core/assemble/symmetric.cpp", "off |= (start[j] ^ j) | (rows[j] ^ j);", "off |= (start[j] ^ j);"),
     "errors: free velocities forgotten": ("core/measure/errors.cpp", "  free_momentum(problem, free_velocity, v, e);", ""),
     "dense: crowded islands taken": ("core/dense_stage.cpp", " && seldom_dependent(rows, velocities)", ""),
+    "dense interior: sign of the upper bound": (DENSE_INTERIOR, "dgamma = -w + change - other;", "dgamma = -w + change + other;"),
+    "dense interior: rows at rest stay": (DENSE_INTERIOR, "      s_.state[i] = ActiveSet::active;\n    }\n    ++flips;", "    }\n    ++flips;"),
+    "dense interior: settles at any error": (DENSE_INTERIOR, "if (flips == 0 && error <= forgiven_)", "if (flips == 0)"),
+    "dense interior: feasible or not": (DENSE_INTERIOR, " && infeasibility_ <= feasible) return true;", ") return true;"),
+    "dense interior: from nowhere": (DENSE_INTERIOR, "if (start && !start->impulse.empty())", "if (false)"),
+    "dense interior: of the tolerance": ("core/dense_stage.cpp", "(interior_[c] ? std::max(refined, forgiven) : refined)", "refined"),
+    "dense interior: steps of friction": ("core/dense_stage.cpp", "fits_ && !(crowded_ && input.follows_shifts())", "fits_"),
+    "normal equations: weights forgotten": (NORMAL, "-= s.weight[4 * c + q] * moved[q]", "-= moved[q]"),
+    "normal equations: envelope of M alone": (NORMAL, "s.normal.first[b] = std::min(s.normal.first[b], s.tile_block[s.tile_pointers[c]]);", ""),
+    "normal equations: rows that Σ couples": (NORMAL, "else if (sigma.values[t] != 0)\n      return false;", "else if (false)\n      return false;"),
+    "normal equations: tiles unweighed": (PANELS, "weighed[q] *= weight[q];", "weighed[q] *= 1;"),
     "dense: many active rows": (DENSE_NEWTON, "  if (too_many()) return false;\n", ""),
     "dense: negative pivots rest": (PANELS, " || (least[c] > 0 && -d > least[c])", ""),
     "dense: pivots without an inverse": (PANELS, "if (!finite || ", "if ("),
@@ -144,7 +155,6 @@ MUTATIONS = {
     "proximal: centre's sign": (PROXIMAL, "(-e * basis_.work.center[basis_.position(o)] - slack) / (sigma + e)", "(e * basis_.work.center[basis_.position(o)] - slack) / (sigma + e)"),
     "lineage: two trees": (LINEAGE, "return chain_end_[q];", "return q;"),
     "lineage: ends of chains": (LINEAGE, "parent[p] == p + 1 ? chain_end_[p + 1] : p", "chain_end_[p + 1 < size ? p + 1 : p]"),
-    "carried order: rows before their velocities": (ORDERING, "2 * at + !crowded", "2 * at"),
     "carried order: new velocities after their rows": (ORDERING, "!crowding.crowded[n + i]; ++e) place(", "!crowding.crowded[n + i] && e < 0; ++e) place("),
     "carried order: velocities without rows forgotten": (ORDERING, "for (std::int32_t j = 0; j < n; ++j) place(j);", ""),
     "carried order: where any two meet": (ORDERING, "crowded ? std::min(at, p) : lineage_.meet(at, p)", "std::max(at, p)"),

@@ -73,6 +73,75 @@ TEST(SmallIslands, AreThoseWhoseRowsAreFew) {
   EXPECT_TRUE(without_factor(apart(96, -1)));
 }
 
+/// Bodies in a line with many rows on each: crowded, which is for interior points on the velocities.
+mlcp::Problem crowded_chain(Random& random, int bodies, int rows) {
+  mlcp::Problem p = random_chain(random, bodies, 3, 0);
+  for (int i = 0; i < rows; ++i) {
+    const int b = i % bodies, other = (b + 1) % bodies;
+    std::vector<Entry> entries;
+    for (int j = 0; j < 3; ++j) entries.push_back({3 * b + j, random.uniform()});
+    for (int j = 0; j < 3; ++j) entries.push_back({3 * other + j, random.uniform()});
+    add_row(p, entries, -random.uniform(0, 1));
+  }
+  return p;
+}
+
+TEST(SmallIslands, ThatAreCrowdedNeedNoOrderEither) {
+  for (int seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    mlcp::Problem p = crowded_chain(random, 40, 220);  // 120 velocities, 260 rows
+    const Dense d = dense(p);
+    mlcp::Solver solver(automatic(), mlcp::Memory());
+    const Solution s = solve(solver, p), expected = solve(p, settings());
+    ASSERT_EQ(fault(d, s), "");
+    EXPECT_TRUE(solver.ordering().empty());
+    EXPECT_LT(difference(s.v, expected.v), 1e-9);
+    EXPECT_GT(s.report.pivots, 5);
+    mlcp::Settings parallel = automatic();
+    parallel.num_threads = 3;
+    EXPECT_EQ(solve(p, parallel).v, s.v);
+
+    const Solution again = solve(solver, p);
+    EXPECT_FALSE(again.report.analyzed);
+    EXPECT_EQ(again.v, s.v);
+    EXPECT_EQ(again.gamma, s.gamma);
+
+    mlcp::Mask start{mlcp::Memory()};
+    start.state.assign(s.state);
+    start.impulse.assign(s.gamma);
+    const Solution warm = solve(solver, p, nullptr, &start);
+    ASSERT_EQ(fault(d, warm), "");
+    EXPECT_EQ(warm.report.pivots, 0) << "it starts where it ends";
+
+    add_body(p, 2, 1);  // an island of its own, for active sets
+    add_row(p, {{p.n() - 1, 1}, {p.n() - 2, 1}}, 0.5);
+    const Solution both = solve(solver, p);
+    ASSERT_EQ(fault(dense(p), both), "");
+    EXPECT_TRUE(solver.ordering().empty());
+    EXPECT_EQ(std::vector(both.v.begin(), both.v.end() - 2), s.v);
+    EXPECT_EQ(both.report.islands, 2);
+  }
+}
+
+/// What the normal equations are not for: too many velocities, a matrix of compliance, steps of a friction iteration.
+TEST(SmallIslands, ThatAreCrowdedAndLargeAreForTheSparseWay) {
+  Random random(11);
+  const auto without_factor = [](const mlcp::Problem& p) {
+    mlcp::Solver solver(automatic(), mlcp::Memory());
+    EXPECT_EQ(fault(dense(p), solve(solver, p)), "");
+    return solver.ordering().empty();
+  };
+  EXPECT_TRUE(without_factor(crowded_chain(random, 66, 330)));   // 198 velocities
+  EXPECT_FALSE(without_factor(crowded_chain(random, 68, 330)));  // 204
+  EXPECT_FALSE(without_factor(crowded_chain(random, 40, 139)));  // 120 velocities, 179 rows: more than there should be for active sets, but no crowd
+  mlcp::Problem coupled = crowded_chain(random, 40, 220);
+  Eigen::MatrixXd sigma = Eigen::MatrixXd::Identity(coupled.m(), coupled.m());
+  sigma(3, 7) = sigma(7, 3) = 0.5;
+  set_sigma(coupled, sigma);
+  EXPECT_FALSE(without_factor(coupled));
+}
+
 TEST(SmallIslands, ASecondSolveOfThePatternFindsNothingAnew) {
   Random random(5);
   mlcp::Problem p = random_chain(random, 6, 3, 1);

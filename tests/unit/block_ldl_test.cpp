@@ -131,6 +131,49 @@ TEST_F(BlockLdl, PanelsAreSolvedAndMultipliedWithTheSameBitsOnEveryCpu) {
   });
 }
 
+TEST_F(BlockLdl, TilesAreMultipliedWithTheSameBitsOnEveryCpu) {
+  each([](Case& c, Random& random) {
+    std::vector<std::int32_t> block;
+    for (int b = 0; b < c.blocks; ++b)
+      if (random.chance(0.6)) block.push_back(b);
+    const int count = static_cast<int>(block.size());
+    Eigen::MatrixXd J = Eigen::MatrixXd::Zero(4, c.size);
+    std::vector<double> tiles;
+    for (const int b : block)
+      for (int q = 0; q < 4; ++q)
+        for (int r = 0; r < 4; ++r) tiles.push_back(J(q, 4 * b + r) = random.chance(0.7) ? random.uniform() : 0);
+    Eigen::VectorXd x(c.size);
+    for (double& entry : x) entry = random.uniform();
+    Eigen::Vector4d y, weight;
+    for (int q = 0; q < 4; ++q) y[q] = random.uniform(), weight[q] = random.uniform(0, 1);
+
+    const mlcp::Kernels& kernels = mlcp::kernels_for_this_cpu();
+    Eigen::Vector4d times = y, times_again = y;
+    mlcp::portable_kernels.tiles_times(count, block.data(), tiles.data(), x.data(), times.data());
+    kernels.tiles_times(count, block.data(), tiles.data(), x.data(), times_again.data());
+    ASSERT_EQ(times, times_again);
+    ASSERT_LT((times - y - J * x).cwiseAbs().maxCoeff(), 1e-13);
+    Eigen::VectorXd transposed = x, transposed_again = x;
+    mlcp::portable_kernels.tiles_transposed(count, block.data(), tiles.data(), y.data(), transposed.data());
+    kernels.tiles_transposed(count, block.data(), tiles.data(), y.data(), transposed_again.data());
+    ASSERT_EQ(transposed, transposed_again);
+    ASSERT_LT((transposed - x - J.transpose() * y).cwiseAbs().maxCoeff(), 1e-13);
+
+    std::vector<double> lower(c.lower.size()), lower_again;
+    for (double& entry : lower) entry = random.uniform();
+    const std::vector<double> before = lower_again = lower;
+    mlcp::portable_kernels.tiles_square({lower.data(), c.inverse.data(), c.first.data()}, count, block.data(), tiles.data(), weight.data());
+    kernels.tiles_square({lower_again.data(), c.inverse.data(), c.first.data()}, count, block.data(), tiles.data(), weight.data());
+    const Eigen::MatrixXd square = J.transpose() * weight.asDiagonal() * J;
+    for (int p = 0; p < c.size; ++p)
+      for (int q = 0; q <= p; ++q) {
+        const std::size_t at = mlcp::BlockLdl::reals(p / 4) + 4 * q + p % 4;
+        ASSERT_EQ(lower[at], lower_again[at]);
+        ASSERT_NEAR(lower[at] - before[at], square(p, q), 1e-13);
+      }
+  });
+}
+
 TEST_F(BlockLdl, SaysWhichRowHasNoPivot) {
   for (int seed = 0; seed < 100; ++seed) {
     Random random(seed);
