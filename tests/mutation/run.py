@@ -17,6 +17,7 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RATIO, FACTOR, KERNELS, BASIS = ("core/solve/ratio_test.cpp", "core/factorize/factor.cpp", "core/factorize/kernel_loops.h", "core/solve/basis.cpp")
 PANELS, RESPONSE = ("core/factorize/panel_loops.h", "core/factorize/dense_response.cpp")
+DENSE_INTERIOR, NORMAL = ("core/solve/dense_interior_point.cpp", "core/factorize/normal_equations.cpp")
 DENSE_NEWTON, DENSE_SIMPLEX = "core/solve/dense_newton.cpp", "core/solve/dense_simplex.cpp"
 NEWTON, PROXIMAL, INTERIOR = ("core/solve/newton.cpp", "core/solve/proximal.cpp", "core/solve/interior_point.cpp")
 EXTENDED, SYMBOLIC = ("core/solve/extended_simplex.cpp", "core/analyze/symbolic.cpp")
