@@ -64,8 +64,7 @@ bool DenseStage::takes(const SolveInput& input) {
   if (s.method != MLCP_METHOD_AUTO || s.trace || s.impulses != MLCP_IMPULSES_ANY || s.max_iterations > 0 || s.max_work > 0) return false;
   knew_ = !components.update(input.problem, input.enabled);
   prepared_ &= knew_;
-  const auto may = [&] { return fits_ && !(crowded_ && input.follows_shifts()); };
-  if (knew_) return may();
+  if (knew_) return fits_;
   fits_ = true;
   crowded_ = false;
   interior_.assign(components.count(), 0);
@@ -74,9 +73,10 @@ bool DenseStage::takes(const SolveInput& input) {
     fits_ = size <= small || (velocities == 0 && rows <= many_rows) || (rows <= medium && velocities <= many_velocities && seldom_dependent(rows, velocities)) ||
             (size <= medium && density(input.problem, c) >= hardly_sparse);
     if (fits_ || velocities > crowded_velocities || !too_many(rows, velocities) || couples_rows(input.problem, c)) continue;
-    fits_ = crowded_ = interior_[c] = true;
+    interior_[c] = 1;
+    fits_ = crowded_ = true;
   }
-  return may();
+  return fits_;
 }
 
 bool DenseStage::solve(const SolveInput& input, const Mask* start, Watch& watch, Crew& crew, Measure& measure, Result& result, Errors& errors,
@@ -138,7 +138,7 @@ bool DenseStage::right_enough(std::int32_t c, double forgiven) const {
 bool DenseStage::solve_crowded(const SolveInput& input, const Mask* start, std::int32_t c, Result& result) {
   if (!normal_.load(input.problem, c)) return false;
   NormalIsland& island = normal_.island(c);
-  if (!DenseInteriorPoint(island, zero_slack(input.settings), forgiven_part * input.settings.tolerance, counts_[c]).solve(input.problem, start)) return false;
+  if (!DenseInteriorPoint(island, zero_slack(input.settings), counts_[c]).solve(input.problem, start)) return false;
   for (std::int32_t p = 0; p < island.n; ++p) result.v[island.velocity(p)] = island.v[p];
   for (std::int32_t i = 0; i < island.m; ++i) {
     result.gamma[island.row[i]] = island.gamma[i];

@@ -11,17 +11,16 @@ namespace {
 constexpr int most_steps = 40;
 constexpr double to_the_boundary = 0.995;
 /// Of the first gap: what the path is followed down to.
-constexpr double reduced_gap = 1e-14;
-/// Of the size that slacks have in the beginning: rows that miss by more may contradict each other.
-constexpr double feasible = 1e-8;
-/// Of aᵢ, added to the compliance of every row, around the point of each step: nothing is biased.
-constexpr double proximal = 1e-9;
+constexpr double reduced_gap = 1e-17;
+/// Added to the compliance of every row, around the point of each step, so that dependent rows do no harm: this part of the gap, in units of the margin,
+/// but within these parts of aᵢ. It lets rows miss by as much as impulses move, times itself; slacks that are to tell rows apart, of stacked boxes with
+/// rounded data 1e-10 of what others have, would be lost in that if it did not fall with the gap.
+constexpr double proximal = 1e-3, most_proximal = 1e-9, least_proximal = 1e-13;
 /// Impulses and slacks start at least this far inside, relative to their mean size.
 constexpr double inside = 1;
-/// Of aᵢ, on active rows; more where rows contradict each other, which moves impulses by the contradiction over ε: to this part of their mean size.
+/// Of aᵢ, on active rows.
 constexpr double sharp_epsilon = 1e-8;
-constexpr double moved = 1e-4;
-/// Rows that the active set of the path has wrong are few.
+/// Rows that the active set of the path has wrong are few, but those that replace them may be wrong too.
 constexpr int most_rounds = 6;
 constexpr int most_refinements = 5;
 /// Rounding of a slack, relative to its terms.
@@ -130,7 +129,8 @@ bool DenseInteriorPoint::step() {
   const auto w = slice(s_.w, 0, m), a = slice(s_.a, 0, m), sigma = slice(s_.sigma, 0, m);
   auto weight = slice(s_.weight, 0, m), dgamma = slice(s_.dgamma, 0, m), change = slice(s_.change, 0, m), other = slice(s_.other, 0, m);
   find_distances();
-  weight = (weight > 0).select(1 / (sigma + proximal * a + slack * over + slope * under), 0);
+  const double epsilon = std::clamp(proximal * gap_ / (margin_ * margin_), least_proximal, most_proximal);
+  weight = (weight > 0).select(1 / (sigma + epsilon * a + slack * over + slope * under), 0);
   if (!NormalEquations::factor(s_)) return false;
   ++counts_.factorizations;
   dgamma = -w;
@@ -159,18 +159,12 @@ bool DenseInteriorPoint::step() {
   return true;
 }
 
-/// false: there may be no feasible point.
+/// Until the gap has fallen; rows may still miss, where there is no feasible point, which polish() finds.  false: it does not fall.
 bool DenseInteriorPoint::reduce() {
   const double first = gap_ = gap();
   for (int steps = 0;; ++steps) {
     NormalEquations::residuals(s_);
-    infeasibility_ = 0;
-    for (std::int32_t i = 0; i < s_.m; ++i) {
-      if (s_.weight[i] == 0) continue;
-      const double missing = std::abs(s_.slack[i] - s_.slope[i] - s_.w[i]) / (margin_ * std::sqrt(s_.a[i]));
-      infeasibility_ = missing <= infeasibility_ ? infeasibility_ : missing;  // keeps NaN
-    }
-    if (gap_ <= reduced_gap * first && infeasibility_ <= feasible) return true;
+    if (gap_ <= reduced_gap * first) return true;
     if (steps == most_steps || !std::isfinite(gap_) || !step()) return false;
     gap_ = gap();
   }
@@ -187,9 +181,8 @@ void DenseInteriorPoint::settle() {
 }
 
 bool DenseInteriorPoint::factor_active() {
-  const double epsilon = std::max(sharp_epsilon, infeasibility_ * inside / moved);
   for (std::int32_t i = 0; i < s_.padded_rows(); ++i)
-    s_.weight[i] = i < s_.m && s_.state[i] == ActiveSet::active && s_.a[i] > 0 ? 1 / (s_.sigma[i] + epsilon * s_.a[i]) : 0;
+    s_.weight[i] = i < s_.m && s_.state[i] == ActiveSet::active && s_.a[i] > 0 ? 1 / (s_.sigma[i] + sharp_epsilon * s_.a[i]) : 0;
   ++counts_.factorizations;
   return NormalEquations::factor(s_);
 }
@@ -201,8 +194,8 @@ double DenseInteriorPoint::error_of_active() const {
   return error;
 }
 
-/// The point of the active set, as far as refinement gets; residuals are those of the point that is left.  returns the error of its rows.
-double DenseInteriorPoint::refine() {
+/// The point of the active set, as far as refinement gets; residuals are those of the point that is left.
+void DenseInteriorPoint::refine() {
   const std::int32_t m = s_.padded_rows();
   NormalEquations::residuals(s_);
   double before = infinity;
@@ -214,10 +207,9 @@ double DenseInteriorPoint::refine() {
     NormalEquations::residuals(s_);
     ++counts_.refinements;
     const double error = error_of_active();
-    if (round > 0 && (error <= rounding || error > 0.5 * before)) return error;  // the first one may leave more of the momentum than of the rows
+    if (round > 0 && (error <= rounding || error > 0.5 * before)) return;  // the first one may leave more of the momentum than of the rows
     before = error;
   }
-  return before;
 }
 
 /// Rows whose state does not fit change it.  returns how many.
@@ -238,14 +230,12 @@ std::int32_t DenseInteriorPoint::flip() {
   return flips;
 }
 
-/// Rows that contradict each other move impulses a little every time, until one of them reaches its bound.
+/// false: rows change sides without end.
 bool DenseInteriorPoint::polish() {
-  std::int32_t flips = 1;
   for (int round = 0; round < most_rounds; ++round) {
-    if (flips > 0 && !factor_active()) return false;
-    const double error = refine();
-    flips = flip();
-    if (flips == 0 && error <= forgiven_) return true;
+    if (!factor_active()) return false;
+    refine();
+    if (flip() == 0) return true;
   }
   return false;
 }
@@ -253,7 +243,6 @@ bool DenseInteriorPoint::polish() {
 bool DenseInteriorPoint::solve(const Problem& problem, const Mask* start) {
   if (start && !start->impulse.empty()) {
     take(problem, *start);
-    infeasibility_ = 0;
     std::fill(s_.v, s_.v + s_.padded_velocities(), 0.0);
     if (polish()) return true;
   }

@@ -11,8 +11,8 @@ namespace mlcp {
 /// change. What it cannot solve, and infeasible islands, are for the methods on the sparse factor.
 class DenseInteriorPoint {
  public:
-  /// zero: slacks up to this, relative to their terms, count as zero.  forgiven: errors up to this may stay in active rows, which contradict each other.
-  DenseInteriorPoint(NormalIsland& island, double zero, double forgiven, Counts& counts) : s_(island), zero_(zero), forgiven_(forgiven), counts_(counts) {}
+  /// zero: slacks up to this, relative to their terms, count as zero.
+  DenseInteriorPoint(NormalIsland& island, double zero, Counts& counts) : s_(island), zero_(zero), counts_(counts) {}
 
   /// before: NormalEquations::load. From the active set and impulses of the start if it has them, first without interior points.
   /// after: states, impulses within their bounds, velocities, and the factor of that active set.   false: given up.
@@ -32,16 +32,16 @@ class DenseInteriorPoint {
   void settle();
   bool factor_active();
   double error_of_active() const;
-  double refine();
+  void refine();
   std::int32_t flip();
   bool polish();
 
   NormalIsland& s_;
-  const double zero_, forgiven_;
+  const double zero_;
   Counts& counts_;
   std::int32_t pairs_ = 0;       // of impulse and slack that are to have a product of 0
   double gap_ = 0;               // mean of these products
-  double margin_ = 1, infeasibility_ = 0;
+  double margin_ = 1;
 };
 
 }  // namespace mlcp
