@@ -100,7 +100,7 @@ bool DenseStage::solve(const SolveInput& input, const Mask* start, Watch& watch,
   };
   crew.run(count, tasks_, false, cost, [&](std::int32_t c) {
     const mlcp_progress begins{sizeof(mlcp_progress), 0, 0, 0, c, count, 0};
-    solved_[c] = watch.check(begins) == MLCP_SOLVED && solve_island(input, start, c, result);
+    solved_[c] = watch.check(begins) == MLCP_SOLVED && solve_island(input, start, watch, c, result);
     if (solved_[c]) look(c);  // while its numbers are at hand
   });
   for (std::int32_t c = 0; c < count; ++c) {
@@ -135,10 +135,10 @@ bool DenseStage::right_enough(std::int32_t c, double forgiven) const {
   return parts_[c].complete && parts_[c].errors.largest() <= (interior_[c] ? std::max(refined, forgiven) : refined);
 }
 
-bool DenseStage::solve_crowded(const SolveInput& input, const Mask* start, std::int32_t c, Result& result) {
+bool DenseStage::solve_crowded(const SolveInput& input, const Mask* start, Watch& watch, std::int32_t c, Result& result) {
   if (!normal_.load(input.problem, c)) return false;
   NormalIsland& island = normal_.island(c);
-  if (!DenseInteriorPoint(island, zero_slack(input.settings), counts_[c]).solve(input.problem, start)) return false;
+  if (!DenseInteriorPoint(island, zero_slack(input.settings), watch, counts_[c]).solve(input.problem, start)) return false;
   for (std::int32_t p = 0; p < island.n; ++p) result.v[island.velocity(p)] = island.v[p];
   for (std::int32_t i = 0; i < island.m; ++i) {
     result.gamma[island.row[i]] = island.gamma[i];
@@ -147,8 +147,8 @@ bool DenseStage::solve_crowded(const SolveInput& input, const Mask* start, std::
   return true;
 }
 
-bool DenseStage::solve_island(const SolveInput& input, const Mask* start, std::int32_t c, Result& result) {
-  if (interior_[c]) return solve_crowded(input, start, c, result);
+bool DenseStage::solve_island(const SolveInput& input, const Mask* start, Watch& watch, std::int32_t c, Result& result) {
+  if (interior_[c]) return solve_crowded(input, start, watch, c, result);
   if (!response_.compute(input.problem, c)) return false;
   DenseIsland& island = response_.island(c);
   DenseNewton newton(island, zero_slack(input.settings), counts_[c]);

@@ -22,11 +22,11 @@ class DenseStage {
   bool knew() const { return knew_; }
   /// after true: result and errors hold an answer as good as rounding allows; only certificates, keys and outcomes are left to the caller.
   bool solve(const SolveInput& input, const Mask* start, Watch& watch, Crew& crew, Measure& measure, Result& result, Errors& errors, Counts& counts);
-  std::int64_t entries() const { return response_.entries() + normal_.entries(); }
+  std::int64_t entries() const { return response_.entries() + (crowded_ ? normal_.entries() : 0); }
 
  private:
-  bool solve_island(const SolveInput& input, const Mask* start, std::int32_t c, Result& result);
-  bool solve_crowded(const SolveInput& input, const Mask* start, std::int32_t c, Result& result);
+  bool solve_island(const SolveInput& input, const Mask* start, Watch& watch, std::int32_t c, Result& result);
+  bool solve_crowded(const SolveInput& input, const Mask* start, Watch& watch, std::int32_t c, Result& result);
   bool refine(std::int32_t c, const Measure& measure, bool rows_alone, Result& result);
   void correct(std::int32_t c, const Measure& measure, bool rows_alone, Result& result);
   void correct_crowded(std::int32_t c, const Measure& measure, bool rows_alone, Result& result);

@@ -165,7 +165,7 @@ bool DenseInteriorPoint::reduce() {
   for (int steps = 0;; ++steps) {
     NormalEquations::residuals(s_);
     if (gap_ <= reduced_gap * first) return true;
-    if (steps == most_steps || !std::isfinite(gap_) || !step()) return false;
+    if (steps == most_steps || !std::isfinite(gap_) || watch_.look() != MLCP_SOLVED || !step()) return false;
     gap_ = gap();
   }
 }
@@ -233,7 +233,7 @@ std::int32_t DenseInteriorPoint::flip() {
 /// false: rows change sides without end.
 bool DenseInteriorPoint::polish() {
   for (int round = 0; round < most_rounds; ++round) {
-    if (!factor_active()) return false;
+    if (watch_.look() != MLCP_SOLVED || !factor_active()) return false;
     refine();
     if (flip() == 0) return true;
   }

@@ -12,10 +12,10 @@ namespace mlcp {
 class DenseInteriorPoint {
  public:
   /// zero: slacks up to this, relative to their terms, count as zero.
-  DenseInteriorPoint(NormalIsland& island, double zero, Counts& counts) : s_(island), zero_(zero), counts_(counts) {}
+  DenseInteriorPoint(NormalIsland& island, double zero, Watch& watch, Counts& counts) : s_(island), zero_(zero), watch_(watch), counts_(counts) {}
 
   /// before: NormalEquations::load. From the active set and impulses of the start if it has them, first without interior points.
-  /// after: states, impulses within their bounds, velocities, and the factor of that active set.   false: given up.
+  /// after: states, impulses within their bounds, velocities, and the factor of that active set.   false: given up, or stopped.
   bool solve(const Problem& problem, const Mask* start);
 
  private:
@@ -38,6 +38,7 @@ class DenseInteriorPoint {
 
   NormalIsland& s_;
   const double zero_;
+  Watch& watch_;
   Counts& counts_;
   std::int32_t pairs_ = 0;       // of impulse and slack that are to have a product of 0
   double gap_ = 0;               // mean of these products

@@ -16,6 +16,8 @@ struct Way {
   const mlcp::Problem& problem;
   mlcp::Components components{mlcp::Memory()};
   mlcp::NormalEquations equations{mlcp::Memory()};
+  mlcp::Settings settings = mlcp::default_settings();
+  mlcp::Watch watch{settings};
   mlcp::Counts counts;
 
   explicit Way(const mlcp::Problem& p) : problem(p) {
@@ -25,7 +27,7 @@ struct Way {
   }
   mlcp::NormalIsland& island() { return equations.island(0); }
   bool solve(const mlcp::Mask* start = nullptr) {
-    return equations.load(problem, 0) && mlcp::DenseInteriorPoint(island(), 1e-13, counts).solve(problem, start);
+    return equations.load(problem, 0) && mlcp::DenseInteriorPoint(island(), 1e-13, watch, counts).solve(problem, start);
   }
   /// As the caller has them.
   Vector velocities() {
@@ -153,6 +155,16 @@ TEST(DenseInteriorPoint, FromTheSolutionOfAProblemNearbyItTakesNoSteps) {
 /// Rows change sides there, some to rest and some not.
 TEST(DenseInteriorPoint, FewRowsThatChangeSidesTakeNoStepsEither) {
   EXPECT_GT(without_steps(0.3), 35);
+}
+
+TEST(DenseInteriorPoint, StopsWhenItIsToldTo) {
+  Random random(1);
+  const mlcp::Problem p = heap(random, 60);
+  Way way(p);
+  way.settings.max_seconds = 1e-9;
+  EXPECT_FALSE(way.solve());
+  EXPECT_EQ(way.counts.pivots, 0);
+  EXPECT_EQ(way.watch.stopped(), MLCP_TIME_LIMIT);
 }
 
 TEST(DenseInteriorPoint, SaysWhereThereIsNoSolution) {
