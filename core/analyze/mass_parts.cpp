@@ -37,9 +37,9 @@ void MassParts::build(const KktPattern& pattern) {
   response_pointers.assign(1, 0);
   response_part_pointers.assign(1, 0);
   response_parts.clear();
+  response_columns.clear();
   reachable.assign(pattern.rows(), 1);
   for (std::int32_t o = 0; o < pattern.rows(); ++o) {
-    std::int64_t entries = response_pointers.back();
     for (std::int32_t t = pattern.row_pointers[o]; t < pattern.row_pointers[o + 1]; ++t) {
       const std::int32_t p = pattern.row_columns[t], part = part_of[p];
       if (part < 0) {
@@ -47,10 +47,10 @@ void MassParts::build(const KktPattern& pattern) {
       } else if (seen_[part] != o) {
         seen_[part] = o;
         response_parts.push_back(part);
-        entries += this->size(part);
+        for (std::int32_t m = pointers[part]; m < pointers[part + 1]; ++m) response_columns.push_back(members[m]);
       }
     }
-    response_pointers.push_back(entries);
+    response_pointers.push_back(static_cast<std::int64_t>(response_columns.size()));
     response_part_pointers.push_back(static_cast<std::int32_t>(response_parts.size()));
   }
 }

@@ -14,9 +14,10 @@ struct MassParts {
   Array<std::int64_t> response_pointers;      ///< ordinal → entries of its column of M⁻¹Jᵀ
   Array<std::int32_t> response_parts;         ///< ordinal → parts, response_part_pointers
   Array<std::int32_t> response_part_pointers;
+  Array<std::int32_t> response_columns;       ///< positions of the entries that response_pointers count
   Array<std::uint8_t> reachable;              ///< ordinal → 1: no large part in it
   explicit MassParts(const Memory& m)
-      : part_of(m), pointers(m), members(m), block(m), response_pointers(m), response_parts(m), response_part_pointers(m),
+      : part_of(m), pointers(m), members(m), block(m), response_pointers(m), response_parts(m), response_part_pointers(m), response_columns(m),
         reachable(m), parent_(m), seen_(m) {}
 
   std::int32_t count() const { return static_cast<std::int32_t>(pointers.size()) - 1; }

@@ -24,11 +24,9 @@ class MassResponse {
 
   /// x += M⁻¹Jᵀ e_o · t
   void add(std::int32_t o, double t, double* x) const {
-    const double* e = entries.data() + parts_->response_pointers[o];
-    for (std::int32_t s = parts_->response_part_pointers[o]; s < parts_->response_part_pointers[o + 1]; ++s) {
-      const std::int32_t part = parts_->response_parts[s], last = parts_->pointers[part + 1];
-      for (std::int32_t m = parts_->pointers[part]; m < last; ++m) x[parts_->members[m]] += *e++ * t;
-    }
+    const double* e = entries.data();
+    const std::int32_t* column = parts_->response_columns.data();
+    for (std::int64_t s = parts_->response_pointers[o], last = parts_->response_pointers[o + 1]; s < last; ++s) x[column[s]] += e[s] * t;
   }
 
  private:

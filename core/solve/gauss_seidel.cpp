@@ -3,13 +3,16 @@
 #include <cmath>
 
 #include "measure/errors.h"
+#include "solve/subspace.h"
 
 namespace mlcp {
 namespace {
 
 /// A guess is good enough for the exact methods when a sweep moves at most one row in so many from or to a bound.
 constexpr std::int32_t quiet = 200;
-constexpr int fewest_sweeps = 10, most_guess_sweeps = 60;
+constexpr int first_sweeps = 20, most_cycles = 8;
+/// Of each cycle: conjugate gradients on the rows between their bounds, then sweeps.
+constexpr int gradients = 15, sweeps_between = 10;
 constexpr int sweeps_between_looks = 8;
 
 }  // namespace
@@ -67,21 +70,32 @@ double GaussSeidel::error(const Island& island) {
   return worst;
 }
 
-void GaussSeidel::settle(const Island& island) {
+/// returns the number of rows whose state was another.
+std::int32_t GaussSeidel::settle(const Island& island) {
+  std::int32_t moved = 0;
   const KktValues& k = basis_.values;
   for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
     if (basis_.set.state[o] == ActiveSet::disabled || !(k.lo[o] < k.hi[o])) continue;
     const double gamma = basis_.gamma(o);
-    basis_.set.state[o] = gamma <= k.lo[o] ? ActiveSet::at_lower : gamma >= k.hi[o] ? ActiveSet::at_upper : ActiveSet::active;
+    const std::uint8_t state = gamma <= k.lo[o] ? ActiveSet::at_lower : gamma >= k.hi[o] ? ActiveSet::at_upper : ActiveSet::active;
+    moved += basis_.set.state[o] != state;
+    basis_.set.state[o] = state;
   }
+  return moved;
 }
 
 void GaussSeidel::guess(const Island& island) {
   start(island);
   const std::int32_t rows = island.last_row - island.first_row;
-  for (int s = 0; s < most_guess_sweeps; ++s)
-    if ((quiet * sweep(island) <= rows && s >= fewest_sweeps) || limits_.check(counts_, 0) != MLCP_SOLVED) break;
+  const auto enough = [&](std::int32_t moved) { return quiet * moved <= rows || limits_.check(counts_, 0) != MLCP_SOLVED; };
+  for (int s = 0; s < first_sweeps; ++s) sweep(island);
   settle(island);
+  Subspace subspace(basis_, counts_);
+  for (int c = 0; c < most_cycles; ++c) {
+    subspace.minimise(island, gradients);
+    for (int s = 0; s < sweeps_between; ++s) sweep(island);
+    if (enough(settle(island))) break;
+  }
 }
 
 mlcp_outcome GaussSeidel::solve(const Island& island, double tolerance) {

@@ -22,7 +22,7 @@ class GaussSeidel {
   void start(const Island& island);
   std::int32_t sweep(const Island& island);
   double error(const Island& island);
-  void settle(const Island& island);
+  std::int32_t settle(const Island& island);
 
   Basis& basis_;
   Limits& limits_;

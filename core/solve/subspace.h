@@ -1,0 +1,26 @@
+#pragma once
+#include "solve/basis.h"
+
+namespace mlcp {
+
+/// What Gauss-Seidel is slow at: the minimum of ½γᵀAγ + bᵀγ over the rows whose impulses lie between their bounds, while the others stay, by a few
+/// conjugate gradients preconditioned with the diagonal of A. Impulses that leave their bounds on the way are put back in the end: the sweeps
+/// around it find the rows that rest, this carries loads through them (Silcowitz-Hansen, Niebe & Erleben 2010). A is never formed.
+class Subspace {
+ public:
+  Subspace(Basis& basis, Counts& counts) : basis_(basis), counts_(counts) {}
+
+  /// before: x = (v, −γ) with v = M⁻¹(k + Jᵀγ), the response of the island is computed.     after: the same, |w| smaller on rows between their bounds.
+  /// cost: entries of J and M⁻¹Jᵀ a step.
+  void minimise(const Island& island, int steps);
+
+ private:
+  std::int32_t collect(const Island& island);
+  double apply(const Island& island, std::int32_t count);
+  void put_back(const Island& island, std::int32_t count);
+
+  Basis& basis_;
+  Counts& counts_;
+};
+
+}  // namespace mlcp
