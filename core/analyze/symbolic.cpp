@@ -4,37 +4,47 @@
 
 namespace mlcp {
 
+/// Row p has an entry in the first column of every run on the tree paths from K's entries in it up to p.
+void Symbolic::fill_rows(const KktPattern& pattern, Poll poll) {
+  const std::int32_t size = this->size();
+  mark_.assign(size, -1);
+  end_.resize(size);
+  for (std::int32_t p = 0; p < size; ++p) {
+    const std::int32_t run = run_start[p];
+    if (run == p) {
+      end_[p] = pointers[p];
+      for (std::int32_t q = p + 1; q < run_end[p]; ++q) rows[end_[p]++] = q;
+    }
+    mark_[run] = p;
+    for (std::int32_t t = pattern.upper_pointers[p]; t < pattern.upper_pointers[p + 1]; ++t)
+      for (std::int32_t q = run_start[pattern.upper_rows[t]]; mark_[q] != p; q = run_start[parent[run_end[q] - 1]]) {
+        mark_[q] = p;
+        rows[end_[q]++] = p;
+        poll.spend(1);
+      }
+  }
+  for (std::int32_t p = 0; p < size; ++p)
+    if (run_start[p] != p) std::copy(rows.begin() + pointers[p - 1] + 1, rows.begin() + pointers[p], rows.begin() + pointers[p]);
+}
+
 void Symbolic::build(const KktPattern& pattern, const EliminationTree& tree, const Crowding& crowding, Poll poll) {
   const std::int32_t size = pattern.size();
   parent.assign(tree.parent.span());
-  const auto for_each_entry = [&](auto visit) {
-    mark_.assign(size, -1);
-    for (std::int32_t p = 0; p < size; ++p) {
-      mark_[p] = p;
-      for (std::int32_t t = pattern.upper_pointers[p]; t < pattern.upper_pointers[p + 1]; ++t)
-        for (std::int32_t q = pattern.upper_rows[t]; mark_[q] != p; q = parent[q]) {
-          mark_[q] = p;
-          visit(q, p);
-          poll.spend(1);
-        }
-    }
-  };
-  pointers.assign(size + 1, 0);
-  for_each_entry([&](std::int32_t column, std::int32_t) { ++pointers[column + 1]; });
-  for (std::int32_t p = 0; p < size; ++p) pointers[p + 1] += pointers[p];
+  counts_.find(pattern, tree);
+  pointers.resize(size + 1);
+  pointers[0] = 0;
+  for (std::int32_t p = 0; p < size; ++p) pointers[p + 1] = pointers[p] + counts_.count[p];
   rows.resize(pointers[size]);
-  end_.assign(pointers.span().first(size));
-  for_each_entry([&](std::int32_t column, std::int32_t row) { rows[end_[column]++] = row; });
 
   // p + 1 is p's parent and has one row less: then it has the same ones
   run_end.resize(size);
   for (std::int32_t p = size - 1; p >= 0; --p) {
-    const bool nests = p + 1 < size && parent[p] == p + 1 && pointers[p + 1] - pointers[p] == pointers[p + 2] - pointers[p + 1] + 1;
+    const bool nests = p + 1 < size && parent[p] == p + 1 && counts_.count[p] == counts_.count[p + 1] + 1;
     run_end[p] = nests ? run_end[p + 1] : p + 1;
   }
-
   run_start.resize(size);
   for (std::int32_t p = 0; p < size; ++p) run_start[p] = p > 0 && run_end[p - 1] == run_end[p] ? run_start[p - 1] : p;
+  fill_rows(pattern, poll);
 
   const auto single = [&](std::int32_t p) { return run_start[p] == p && run_end[p] == p + 1; };
   const auto equal = [&](std::int32_t p, std::int32_t q) {

@@ -1,4 +1,5 @@
 #pragma once
+#include "analyze/column_counts.h"
 #include "analyze/crowding.h"
 #include "analyze/elimination_tree.h"
 #include "analyze/kkt_pattern.h"
@@ -26,15 +27,18 @@ struct Symbolic {
   Array<std::int32_t> batch_start, batch_end;
   Array<std::int64_t> path_entries;  ///< of the columns on the path p → root, p's own included: what a toggle of p may touch
   Array<Island> islands;
-  explicit Symbolic(const Memory& m) : parent(m), pointers(m), rows(m), run_end(m), run_start(m), batch_start(m), batch_end(m), path_entries(m), islands(m), mark_(m), end_(m) {}
+  explicit Symbolic(const Memory& m) : parent(m), pointers(m), rows(m), run_end(m), run_start(m), batch_start(m), batch_end(m), path_entries(m), islands(m), counts_(m), mark_(m), end_(m) {}
 
   std::int32_t size() const { return static_cast<std::int32_t>(parent.size()); }
   std::int64_t entries() const { return pointers.empty() ? 0 : pointers.back(); }
 
-  /// cost: O(entries of L), by walking each row's subtree twice (Davis 2006, ch. 4).  throws: Stopped.
+  /// before: the order is a postorder of the tree.
+  /// cost: O(entries of L), to copy them: each row's subtree is walked run by run (after Davis 2006, ch. 4).  throws: Stopped.
   void build(const KktPattern& pattern, const EliminationTree& tree, const Crowding& crowding, Poll poll = {});
 
  private:
+  void fill_rows(const KktPattern& pattern, Poll poll);
+  ColumnCounts counts_;
   Array<std::int32_t> mark_;
   Array<std::int64_t> end_;
 };

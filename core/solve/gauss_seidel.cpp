@@ -1,5 +1,6 @@
 #include "solve/gauss_seidel.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "measure/errors.h"
@@ -8,12 +9,18 @@
 namespace mlcp {
 namespace {
 
-/// A guess is good enough for the exact methods when a sweep moves at most one row in so many from or to a bound.
-constexpr std::int32_t quiet = 200;
-constexpr int first_sweeps = 20, most_cycles = 8;
+/// A guess is good enough for the exact methods when a cycle moves at most one row in so many from or to a bound.
+constexpr std::int32_t quiet = 400;
+/// Where cycles do not bring this down, rows depend on each other and go on taking each other's loads.
+constexpr double worth_it = 1.3;
+/// For fewer rows, full steps cost no more than cycles do.
+constexpr std::int32_t few_rows = 128;
+constexpr int first_sweeps = 8, most_cycles = 8;
 /// Of each cycle: conjugate gradients on the rows between their bounds, then sweeps.
-constexpr int gradients = 15, sweeps_between = 10;
+constexpr int gradients = 15, sweeps_between = 8;
 constexpr int sweeps_between_looks = 8;
+/// So many rows, far apart in the elimination order, take turns in a sweep: neighbours share bodies and would wait for each other.
+constexpr std::int32_t lanes = 4;
 
 }  // namespace
 
@@ -21,38 +28,35 @@ bool GaussSeidel::prepare(const Island& island) { return basis_.response.compute
 
 /// v = M⁻¹(k + Jᵀγ)
 void GaussSeidel::start(const Island& island) {
-  double* x = basis_.set.x.data();
-  for (std::int32_t p = island.first; p < island.last; ++p)
-    if (!basis_.pattern->is_row(p)) x[p] = basis_.values.b[p];
-  basis_.response.solve(island, x);
+  basis_.response.solve(island, basis_.values.b.data());
   for (std::int32_t o = island.first_row; o < island.last_row; ++o)
-    if (const double gamma = basis_.gamma(o); gamma != 0) basis_.response.add(o, gamma, x);
+    if (const double gamma = basis_.gamma(o); gamma != 0) basis_.response.rows().add(o, gamma, basis_.response.velocity.data());
 }
 
-/// returns the number of rows that left a bound or reached one.
-std::int32_t GaussSeidel::sweep(const Island& island) {
+void GaussSeidel::sweep(const Island& island) {
   const KktPattern& pattern = *basis_.pattern;
   const KktValues& k = basis_.values;
-  double* x = basis_.set.x.data();
-  std::int32_t moved = 0;
-  for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
-    if (basis_.set.state[o] == ActiveSet::disabled) continue;
-    const std::int32_t p = pattern.row_position[o];
-    double w = k.diagonal[p] * x[p] - k.b[p];
-    for (std::int32_t t = pattern.row_pointers[o]; t < pattern.row_pointers[o + 1]; ++t) w += k.row[t] * x[pattern.row_columns[t]];
-    const double gamma = -x[p], lo = k.lo[o], hi = k.hi[o], a = basis_.response.diagonal[o];
-    if (!(a > 0)) continue;
-    double next = gamma - w / a;
-    next = next < lo ? lo : next > hi ? hi : next;
-    const double change = next - gamma;
-    if (change == 0 || !std::isfinite(change)) continue;
-    moved += (gamma == lo) != (next == lo) || (gamma == hi) != (next == hi);
+  const MassResponse::Rows rows = basis_.response.rows();
+  const std::uint8_t* state = basis_.set.state.data();
+  const std::int32_t *position = pattern.row_position.data(), *beside = basis_.response.parts().beside.data(), *row_end = pattern.row_pointers.data() + 1;
+  const double *diagonal = k.diagonal.data(), *b = k.b.data(), *lo = k.lo.data(), *hi = k.hi.data();
+  const double *a = basis_.response.diagonal.data(), *inverse = basis_.response.inverse.data();
+  double *x = basis_.set.x.data(), *velocity = basis_.response.velocity.data();
+  const auto relax = [&, rows](std::int32_t o) {
+    if (state[o] == ActiveSet::disabled || !(a[o] > 0)) return;
+    const std::int32_t p = position[o];
+    double w = rows.product(o, velocity) + (diagonal[p] * x[p] - b[p]);
+    for (std::int32_t t = beside[o]; t < row_end[o]; ++t) w += k.row[t] * x[pattern.row_columns[t]];
+    const double gamma = -x[p], next = std::min(std::max(gamma - w * inverse[o], lo[o]), hi[o]), change = next - gamma;
+    if (change == 0 || !std::isfinite(change)) return;
     x[p] = -next;
-    basis_.response.add(o, change, x);
-  }
+    rows.add(o, change, velocity);
+  };
+  const std::int32_t apart = (island.last_row - island.first_row + lanes - 1) / lanes;
+  for (std::int32_t i = island.first_row; i < island.first_row + apart; ++i)
+    for (std::int32_t o = i; o < island.last_row; o += apart) relax(o);
   counts_.work += pattern.row_pointers[island.last_row] - pattern.row_pointers[island.first_row];
   ++counts_.pivots;
-  return moved;
 }
 
 /// The constraint error of the report, from numbers of the factor's order.
@@ -84,26 +88,34 @@ std::int32_t GaussSeidel::settle(const Island& island) {
   return moved;
 }
 
-void GaussSeidel::guess(const Island& island) {
-  start(island);
+void GaussSeidel::guess(const Island& island, bool warm) {
   const std::int32_t rows = island.last_row - island.first_row;
-  const auto enough = [&](std::int32_t moved) { return quiet * moved <= rows || limits_.check(counts_, 0) != MLCP_SOLVED; };
-  for (int s = 0; s < first_sweeps; ++s) sweep(island);
-  settle(island);
+  const auto go_on = [&] { return limits_.check(counts_, 0) == MLCP_SOLVED; };
+  const auto sweeps = [&](int count) {
+    for (int s = 0; s < count && go_on(); ++s) sweep(island);
+    return settle(island);
+  };
+  start(island);
+  if (!warm) sweeps(first_sweeps);
   Subspace subspace(basis_, counts_);
-  for (int c = 0; c < most_cycles; ++c) {
+  const int most = rows < few_rows ? 0 : most_cycles;
+  for (std::int32_t c = 0, before = rows, moved = sweeps(sweeps_between / 2); quiet * moved > rows && c < most; ++c) {
+    if (!go_on()) break;
     subspace.minimise(island, gradients);
-    for (int s = 0; s < sweeps_between; ++s) sweep(island);
-    if (enough(settle(island))) break;
+    moved = sweeps(sweeps_between);
+    if (worth_it * moved > before) break;
+    before = moved;
   }
+  basis_.response.give(island, basis_.set.x.data());
 }
 
 mlcp_outcome GaussSeidel::solve(const Island& island, double tolerance) {
-  start(island);
   mlcp_outcome outcome = MLCP_SOLVED;
-  while (error(island) > tolerance && outcome == MLCP_SOLVED) {
-    for (int s = 0; s < sweeps_between_looks; ++s) sweep(island);
+  for (;;) {
     start(island);  // without the rounding of the sweeps
+    basis_.response.give(island, basis_.set.x.data());
+    if (error(island) <= tolerance || outcome != MLCP_SOLVED) break;
+    for (int s = 0; s < sweeps_between_looks; ++s) sweep(island);
     outcome = limits_.check(counts_, 0);
   }
   settle(island);

@@ -13,14 +13,15 @@ class GaussSeidel {
 
   /// false: M couples too many velocities, or is not positive definite; nothing has changed.
   bool prepare(const Island& island);
-  /// Sweeps until hardly a row leaves or reaches a bound any more, and puts the rows where their impulses are.
-  void guess(const Island& island);
+  /// Sweeps and conjugate gradients (Subspace) in turns until hardly a row leaves or reaches a bound any more; puts the rows where their impulses are.
+  /// warm: the impulses are nearly right.
+  void guess(const Island& island, bool warm);
   /// Sweeps until every error is within the tolerance.
   mlcp_outcome solve(const Island& island, double tolerance);
 
  private:
   void start(const Island& island);
-  std::int32_t sweep(const Island& island);
+  void sweep(const Island& island);
   double error(const Island& island);
   std::int32_t settle(const Island& island);
 

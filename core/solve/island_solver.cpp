@@ -61,7 +61,9 @@ class Run {
     }
     if (method == MLCP_METHOD_PGS && sweep()) return;
     const bool pivots_open = method == MLCP_METHOD_AUTO && !input_.follows_shifts() && !island_.crowded;
-    if (newton(warm, {.guess = warm && guessable(), .pivots = pivots_open})) return;
+    const bool improves = warm && !input_.follows_shifts() && knows_impulses();
+    if (improves) guess(true);
+    if (newton(warm, {.guess = warm && !improves && guessable(), .pivots = pivots_open})) return;
     if (left_.guess) {
       go_back_to_start();
       if (newton(false, {.pivots = pivots_open})) return;
@@ -140,10 +142,7 @@ class Run {
 
   /// false: it gave up.
   bool newton(bool warm, Newton::Left open) {
-    if (!warm && guessable()) {
-      GaussSeidel sweeps(basis_, limits_, end_.counts);
-      if (sweeps.prepare(island_)) sweeps.guess(island_);
-    }
+    if (!warm) guess(false);
     Newton newton(basis_, limits_, end_.counts);
     end_.method = MLCP_METHOD_NEWTON;
     end_.outcome = newton.solve(island_, warm, open);
@@ -152,6 +151,20 @@ class Run {
     end_.semidefinite = newton.semidefinite();
     if (end_.outcome == MLCP_NOT_POSITIVE_DEFINITE) end_.indefinite = basis_.factor.failed_position(island_);
     return end_.outcome != MLCP_ITERATION_LIMIT;
+  }
+
+  /// warm: from impulses that are nearly right.
+  void guess(bool warm) {
+    if (!guessable()) return;
+    GaussSeidel sweeps(basis_, limits_, end_.counts);
+    if (sweeps.prepare(island_)) sweeps.guess(island_, warm);
+  }
+
+  /// A start may be a mask of states alone.
+  bool knows_impulses() const {
+    for (std::int32_t o = island_.first_row; o < island_.last_row; ++o)
+      if (basis_.set.state[o] == ActiveSet::active && basis_.gamma(o) != 0) return true;
+    return false;
   }
 
   /// false: they gave up.

@@ -19,6 +19,11 @@ constexpr std::size_t good_guess = 8;
 constexpr std::int32_t few_to_pivot = 1000;
 /// Refined points as good as this are judged row by row; worse ones stand on a factor that cannot be trusted.
 constexpr double refined = 1e-13;
+/// Rows of rounded data contradict each other by up to this much. Impulses that meet a row but for w differ from the centre by w / (ε a): with a smaller ε
+/// those of the rows in the way reach their bounds, and which of them gives way shows without a pivot.
+constexpr double rounded = 1e-10, sharper = 1e-2, sharpest_epsilon = 1e-13;
+/// Impulses so many times as large as the right-hand sides ask for are those of a contradiction that is no rounding, divided by ε.
+constexpr double grown = 1e4;
 constexpr double first_epsilon = 1e-2, reduction = 0.3;
 constexpr int most_descents = 30, most_inner_steps = 60;
 /// Rounding may move a row once more after the refined point.
@@ -102,6 +107,16 @@ bool Newton::empty_rows_hold(const Island& island) const {
   return true;
 }
 
+bool Newton::impulses_grow(const Island& island) const {
+  double largest = 0, asked = 0;
+  for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
+    if (basis_.set.state[o] == ActiveSet::disabled) continue;
+    largest = std::max(largest, basis_.values.root_a[o] * std::abs(basis_.gamma(o)));
+    asked = std::max(asked, basis_.values.size[basis_.position(o)] / basis_.values.root_a[o]);
+  }
+  return !(largest <= grown * asked);
+}
+
 Newton::Ending Newton::exact(const Island& island) {
   const auto active = [&] { return std::count(basis_.set.state.begin() + island.first_row, basis_.set.state.begin() + island.last_row, ActiveSet::active); };
   const auto wanted = active();
@@ -140,7 +155,14 @@ Newton::Ending Newton::sharp_rounds(const Island& island, int rounds) {
     if (ending != Ending::settled) return ending;
     proximal_.center_here(island);
     if (finish(island) == Ending::settled) return Ending::settled;
-    if (flips_.empty() && !(finished_ <= 0.5 * before)) return Ending::stuck;  // the rows contradict each other by that much
+    const bool contradict = !(finished_ <= 0.5 * before);  // rows do, by that much
+    if (contradict && finished_ <= rounded && proximal_.epsilon() > sharpest_epsilon && !impulses_grow(island)) {
+      if (!soften(island, sharper * proximal_.epsilon())) return Ending::indefinite;
+      round = -1;
+      before = infinity;
+      continue;
+    }
+    if (contradict && flips_.empty()) return Ending::stuck;
     before = finished_;
     // The share of least norm may be beyond the bounds of some rows, where that of the centre is not. Only where there is a solution: the impulses of
     // an infeasible problem grow from centre to centre until its contradiction is small beside them.

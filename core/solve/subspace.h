@@ -1,4 +1,6 @@
 #pragma once
+#include <span>
+
 #include "solve/basis.h"
 
 namespace mlcp {
@@ -10,14 +12,14 @@ class Subspace {
  public:
   Subspace(Basis& basis, Counts& counts) : basis_(basis), counts_(counts) {}
 
-  /// before: x = (v, −γ) with v = M⁻¹(k + Jᵀγ), the response of the island is computed.     after: the same, |w| smaller on rows between their bounds.
+  /// before: γ in x, M⁻¹(k + Jᵀγ) in response.velocity.     after: the same, |w| smaller on rows between their bounds.
   /// cost: entries of J and M⁻¹Jᵀ a step.
   void minimise(const Island& island, int steps);
 
  private:
   std::int32_t collect(const Island& island);
-  double apply(const Island& island, std::int32_t count);
-  void put_back(const Island& island, std::int32_t count);
+  double apply(const Island& island, std::span<const std::int32_t> free);
+  void put_back(std::span<const std::int32_t> free);
 
   Basis& basis_;
   Counts& counts_;

@@ -380,7 +380,7 @@ struct Patience {
 };
 
 TEST_F(SolverApi, ASolveStopsInsideAnalysisAndFactorizationToo) {
-  fill_tangle(p, 2500);
+  fill_tangle(p, 3500);
   Patience patience;
   patience.give(s, 1 << 30);
   ASSERT_EQ(mlcp_solve(s, p, nullptr, nullptr, &report), MLCP_OK);

@@ -29,7 +29,10 @@ TEST(MassResponse, IsTheColumnOfInverseMassTimesJacobian) {
         const int row = analysis.pattern.node[analysis.pattern.row_position[o]] - p.n();
         const Vector expected = inverse * d.J.row(row).transpose();
         std::vector<double> x(analysis.pattern.size(), 0.0);
-        response.add(o, 1, x.data());
+        response.velocity.assign(response.velocity.size(), 0.0);
+        response.rows().add(o, 1, response.velocity.data());
+        response.give(island, x.data());
+        ASSERT_NEAR(response.rows().product(o, response.velocity.data()), static_cast<double>(d.J.row(row) * expected), 1e-12) << "seed " << seed;
         for (int j = 0; j < p.n(); ++j) ASSERT_NEAR(x[analysis.pattern.position[j]], static_cast<double>(expected[j]), 1e-12) << "seed " << seed;
         ASSERT_NEAR(response.diagonal[o], static_cast<double>(d.J.row(row) * expected), 1e-12) << "seed " << seed;
       }
