@@ -13,8 +13,10 @@ namespace {
 constexpr std::int32_t quiet = 400;
 /// Where cycles do not bring this down, rows depend on each other and go on taking each other's loads.
 constexpr double worth_it = 1.3;
-/// For fewer rows, full steps cost no more than cycles do.
-constexpr std::int32_t few_rows = 128;
+/// The same of half as many sweeps alone.
+constexpr std::int32_t quiet_alone = 800;
+/// Twice the products of a factorization, by the entries of J, from which on cycles pay.
+constexpr double dear = 250;
 constexpr int first_sweeps = 8, most_cycles = 8;
 /// Of each cycle: conjugate gradients on the rows between their bounds, then sweeps.
 constexpr int gradients = 15, sweeps_between = 8;
@@ -97,16 +99,32 @@ void GaussSeidel::guess(const Island& island, bool warm) {
   };
   start(island);
   if (!warm) sweeps(first_sweeps);
-  Subspace subspace(basis_, counts_);
-  const int most = rows < few_rows ? 0 : most_cycles;
-  for (std::int32_t c = 0, before = rows, moved = sweeps(sweeps_between / 2); quiet * moved > rows && c < most; ++c) {
-    if (!go_on()) break;
-    subspace.minimise(island, gradients);
-    moved = sweeps(sweeps_between);
-    if (worth_it * moved > before) break;
-    before = moved;
+  std::int32_t moved = sweeps(sweeps_between / 2);
+  if (cycles_pay(island)) {
+    Subspace subspace(basis_, counts_);
+    for (std::int32_t c = 0, before = rows; quiet * moved > rows && c < most_cycles && go_on(); ++c) {
+      subspace.minimise(island, gradients);
+      moved = sweeps(sweeps_between);
+      if (worth_it * moved > before) break;
+      before = moved;
+    }
+  } else {
+    for (int c = 0; quiet_alone * moved > rows && c < most_cycles && go_on(); ++c) moved = sweeps(sweeps_between / 2);
   }
   basis_.response.give(island, basis_.set.x.data());
+}
+
+/// Full steps from a worse guess take more factorizations. So long as these are cheap, so is that.
+bool GaussSeidel::cycles_pay(const Island& island) const {
+  const Symbolic& symbolic = basis_.factor.symbolic();
+  const MassParts& parts = basis_.response.parts();
+  const auto entries = static_cast<double>(4 * (parts.four_pointers[island.last_row] - parts.four_pointers[island.first_row]));
+  double products = 0;  // of a factorization, twice
+  for (std::int32_t p = island.first; p < island.last; ++p) {
+    const auto rows = static_cast<double>(symbolic.pointers[p + 1] - symbolic.pointers[p]);
+    products += rows * rows;
+  }
+  return products >= dear * entries;
 }
 
 mlcp_outcome GaussSeidel::solve(const Island& island, double tolerance) {

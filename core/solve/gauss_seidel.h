@@ -20,6 +20,7 @@ class GaussSeidel {
   mlcp_outcome solve(const Island& island, double tolerance);
 
  private:
+  bool cycles_pay(const Island& island) const;
   void start(const Island& island);
   void sweep(const Island& island);
   double error(const Island& island);
