@@ -14,15 +14,14 @@ void MassParts::build(const KktPattern& pattern) {
       for (std::int32_t t = pattern.lower_pointers[p]; t < pattern.lower_pointers[p + 1]; ++t)
         if (!pattern.is_row(pattern.lower_rows[t])) join(parent_, p, pattern.lower_rows[t]);
 
-  // velocities that only rows couple, and the same rows: those of a body with a diagonal mass fill a four together
+  // velocities that only rows couple, and the same first row: those of a body with a diagonal mass fill a four together
   seen_.assign(size, 0);
   for (std::int32_t p = 0; p < size; ++p) ++seen_[root_of(parent_, p)];
-  const auto alone = [&](std::int32_t p) { return !pattern.is_row(p) && seen_[parent_[p]] == 1; };
-  const auto first_row = [&](std::int32_t p) { return pattern.lower_rows.data() + pattern.lower_pointers[p]; };
-  const auto same_rows = [&](std::int32_t p, std::int32_t q) { return std::equal(first_row(p), first_row(p + 1), first_row(q), first_row(q + 1)); };
+  const auto alone = [&](std::int32_t p) { return !pattern.is_row(p) && seen_[parent_[p]] == 1 && pattern.lower_pointers[p] < pattern.lower_pointers[p + 1]; };
+  const auto first_row = [&](std::int32_t p) { return pattern.lower_rows[pattern.lower_pointers[p]]; };
   for (std::int32_t p = 0; p < size;) {
     std::int32_t last = p + 1;
-    for (; alone(p) && last < std::min(size, p + 4) && alone(last) && same_rows(p, last);) ++last;
+    while (alone(p) && last < std::min(size, p + 4) && alone(last) && first_row(p) == first_row(last)) ++last;
     for (std::int32_t q = p + 1; q < last; ++q) parent_[q] = p;
     p = last;
   }

@@ -1,6 +1,7 @@
 #include "factorize/refinement.h"
 
 #include <cmath>
+#include <utility>
 
 #include "memory/slice.h"
 
@@ -25,25 +26,44 @@ void Refinement::prepare(std::int32_t size) {
   best_.resize(size);
 }
 
-/// after: residual_ = b − K x, scale_ = |K||x| + size on the island, of contacts their largest.
+/// after: residual_ = b − K x, scale_ = |K||x| + size on the island, of contacts their largest. Rows gather along J and Σ, velocities along the columns
+/// of K; only what these have on one side of the diagonal (M, rows that come before their velocities) is added to the other by scattering.
 Refinement::Error Refinement::measure(const Island& island, const KktPattern& pattern, const KktValues& values, const Factor& factor,
                                       const double* b, const double* size, const double* x, std::int64_t& work) {
   for (std::int32_t p = island.first; p < island.last; ++p) {
     residual_[p] = static_cast<long double>(b[p]) - static_cast<long double>(values.diagonal[p]) * x[p];
     scale_[p] = size[p] + std::abs(values.diagonal[p] * x[p]);
   }
+  const auto scatter = [&](std::int32_t q, double k, double own) {
+    if (own == 0) return;
+    residual_[q] -= static_cast<long double>(k) * own;
+    scale_[q] += std::abs(k * own);
+  };
   for (std::int32_t p = island.first; p < island.last; ++p) {
+    const bool row = pattern.is_row(p);
+    if (row && !island.crowded) continue;
     const double own = x[p];
     long double residual = residual_[p];
     double scale = scale_[p];
     for (std::int32_t t = pattern.lower_pointers[p]; t < pattern.lower_pointers[p + 1]; ++t) {
       const std::int32_t q = pattern.lower_rows[t];
       const double k = values.lower[t];
+      if (!pattern.is_row(q)) scatter(q, k, own);
+      if (row) continue;
       residual -= static_cast<long double>(k) * x[q];
       scale += std::abs(k * x[q]);
-      if (own == 0) continue;
-      residual_[q] -= static_cast<long double>(k) * own;
-      scale_[q] += std::abs(k * own);
+    }
+    residual_[p] = residual;
+    scale_[p] = scale;
+  }
+  for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
+    const std::int32_t p = pattern.row_position[o];
+    long double residual = residual_[p];
+    double scale = scale_[p];
+    for (std::int32_t t = pattern.row_pointers[o]; t < pattern.row_pointers[o + 1]; ++t) {
+      const double k = values.row[t], other = x[pattern.row_columns[t]];
+      residual -= static_cast<long double>(k) * other;
+      scale += std::abs(k * other);
     }
     residual_[p] = residual;
     scale_[p] = scale;
@@ -96,6 +116,19 @@ double Refinement::solve(const Island& island, const KktPattern& pattern, const 
     if (factor.in(p)) x[p] = 0;
   Error error = look();
   if (from_x && error.largest() <= done) return error.largest();
+  // before: residual_ is that of x.  after: the same.
+  const auto stop_what_is_lost = [&] {
+    of(best_.data()) = of(x);
+    stop(island, pattern, values, factor, x);
+    const Error now = look();
+    if (better(now, error)) {
+      error = now;
+    } else {
+      of(x) = of(best_.data());
+      look();
+    }
+  };
+  bool stopped = false;
   double momentum_before = infinity;
   for (int step = from_x; step <= most_steps; ++step) {
     of(best_.data()) = of(x);
@@ -108,19 +141,16 @@ double Refinement::solve(const Island& island, const KktPattern& pattern, const 
     const Error now = look();
     if (step > 0 && !better(now, error)) {
       of(x) = of(best_.data());
+      look();
       break;
     }
     if (!rows_alone) momentum_before = step > 0 ? error.momentum : infinity;
     error = now;
+    // most of what is off is at rest, and a step along the rows alone has brought it below the rounding of momentum
+    if (rows_alone && error.off > 0 && !std::exchange(stopped, true)) stop_what_is_lost();
     if (error.largest() <= done) return error.largest();
   }
-  if (error.off == 0) return error.largest();
-  look();
-  of(best_.data()) = of(x);
-  stop(island, pattern, values, factor, x);
-  const Error now = look();
-  if (better(now, error)) return now.largest();
-  of(x) = of(best_.data());
+  if (error.off > 0) stop_what_is_lost();
   return error.largest();
 }
 

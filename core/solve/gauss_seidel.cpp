@@ -21,8 +21,6 @@ constexpr int first_sweeps = 8, most_cycles = 8;
 /// Of each cycle: conjugate gradients on the rows between their bounds, then sweeps.
 constexpr int gradients = 15, sweeps_between = 8;
 constexpr int sweeps_between_looks = 8;
-/// So many rows, far apart in the elimination order, take turns in a sweep: neighbours share bodies and would wait for each other.
-constexpr std::int32_t lanes = 4;
 
 }  // namespace
 
@@ -44,19 +42,16 @@ void GaussSeidel::sweep(const Island& island) {
   const double *diagonal = k.diagonal.data(), *b = k.b.data(), *lo = k.lo.data(), *hi = k.hi.data();
   const double *a = basis_.response.diagonal.data(), *inverse = basis_.response.inverse.data();
   double *x = basis_.set.x.data(), *velocity = basis_.response.velocity.data();
-  const auto relax = [&, rows](std::int32_t o) {
-    if (state[o] == ActiveSet::disabled || !(a[o] > 0)) return;
+  for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
+    if (state[o] == ActiveSet::disabled || !(a[o] > 0)) continue;
     const std::int32_t p = position[o];
     double w = rows.product(o, velocity) + (diagonal[p] * x[p] - b[p]);
     for (std::int32_t t = beside[o]; t < row_end[o]; ++t) w += k.row[t] * x[pattern.row_columns[t]];
     const double gamma = -x[p], next = std::min(std::max(gamma - w * inverse[o], lo[o]), hi[o]), change = next - gamma;
-    if (change == 0 || !std::isfinite(change)) return;
+    if (change == 0 || !std::isfinite(change)) continue;
     x[p] = -next;
     rows.add(o, change, velocity);
-  };
-  const std::int32_t apart = (island.last_row - island.first_row + lanes - 1) / lanes;
-  for (std::int32_t i = island.first_row; i < island.first_row + apart; ++i)
-    for (std::int32_t o = i; o < island.last_row; o += apart) relax(o);
+  }
   counts_.work += pattern.row_pointers[island.last_row] - pattern.row_pointers[island.first_row];
   ++counts_.pivots;
 }
