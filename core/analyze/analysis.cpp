@@ -84,15 +84,20 @@ std::int64_t Analysis::allowed_entries() const {
 
 /// From the order to everything that follows from it.
 void Analysis::build(const Problem& problem, const Poll& poll) {
-  pattern.build(problem, ordering.order.span());
-  tree.build(pattern);
-  tree.postorder(sequence_);
-  for (std::int32_t& p : sequence_) p = pattern.node[p];
-  if (!std::ranges::equal(sequence_, ordering.order)) {
-    ordering.order.assign(sequence_.span());
+  if (crowding.any()) {
     pattern.build(problem, ordering.order.span());
     tree.build(pattern);
+  } else {
+    tree.build(problem, ordering.order.span());
   }
+  tree.postorder(sequence_);
+  const bool ordered = std::ranges::is_sorted(sequence_);
+  if (!ordered) {
+    tree.relabel(sequence_.span());
+    for (std::int32_t& p : sequence_) p = ordering.order[p];
+    ordering.order.assign(sequence_.span());
+  }
+  if (!ordered || !crowding.any()) pattern.build(problem, ordering.order.span());
   symbolic.build(pattern, tree, crowding, poll);
   parts.build(pattern);
 }

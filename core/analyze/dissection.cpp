@@ -8,8 +8,10 @@ namespace {
 constexpr std::int32_t leaf_size = 12;
 /// Smaller pieces are not worth a search for a separator: minimum degree finds as little fill.
 constexpr std::int32_t bulky_size = 4000;
-/// A separator is thin when it has at most 2 + 1/16 of the piece's variables.
-bool thin(std::int32_t separator, std::int32_t piece) { return separator <= 2 + piece / 16; }
+/// A separator is thin when it has at most 2 and one in so many of the piece's variables,
+constexpr std::int32_t thin = 16;
+/// and much thinner than those of another search can hardly be.
+constexpr std::int32_t thinner = 64;
 
 template <class Visit>
 void for_each_neighbour(const QuotientGraph& g, std::int32_t x, Visit visit) {
@@ -82,7 +84,7 @@ void Dissection::split_apart(const QuotientGraph& g, Piece piece, std::int32_t l
       piece_[x] = 0;
       apart_.push_back(x);
     }
-    stack_.push_back({first, first + reached_, piece.parent, true});
+    stack_.push_back({first, first + reached_, piece.parent, false, true});
   }
   std::copy(apart_.begin(), apart_.end(), sequence_.begin() + piece.first);
 }
@@ -91,6 +93,10 @@ void Dissection::split_apart(const QuotientGraph& g, Piece piece, std::int32_t l
 bool Dissection::split(const QuotientGraph& g, Piece piece) {
   const std::int32_t size = piece.last - piece.first, label = ++label_;
   for (std::int32_t s = piece.first; s < piece.last; ++s) piece_[sequence_[s]] = label;
+  if (piece.levelled) {
+    find_levels(piece);
+    if (split_at_level(g, piece, label, thinner)) return true;
+  }
   std::int32_t far = sequence_[piece.last - 1];
   if (!piece.searched) {
     far = search(g, sequence_[piece.first], label);
@@ -104,11 +110,24 @@ bool Dissection::split(const QuotientGraph& g, Piece piece) {
   for (std::int32_t s = piece.first; s < piece.last; ++s)
     if (sequence_[s] < velocities) return false;
   search(g, far, label);
-  return split_at_level(g, piece, label) || (Separator::available() && size >= bulky_size && split_bulky(g, piece));
+  piece.searched = true;
+  return split_at_level(g, piece, label, thin) || (Separator::available() && size >= bulky_size && split_bulky(g, piece));
 }
 
-/// before: search() has visited the whole piece.
-bool Dissection::split_at_level(const QuotientGraph& g, Piece piece, std::int32_t label) {
+/// As search() leaves them, of a piece that is levelled.
+void Dissection::find_levels(Piece piece) {
+  front_.clear();
+  level_start_.clear();
+  for (std::int32_t s = piece.first; s < piece.last; ++s) {
+    const std::int32_t x = sequence_[s];
+    if (s == piece.first || level_[x] != level_[sequence_[s - 1]]) level_start_.push_back(s - piece.first);
+    front_.push_back(x);
+  }
+  level_start_.push_back(piece.last - piece.first);
+}
+
+/// before: front_ holds the whole piece by levels, from search() or find_levels(). part: how thin the separator is to be.
+bool Dissection::split_at_level(const QuotientGraph& g, Piece piece, std::int32_t label, std::int32_t part) {
   const std::int32_t size = piece.last - piece.first;
   Array<std::int32_t>& front = front_;
   const auto levels = static_cast<std::int32_t>(level_start_.size()) - 1;
@@ -119,20 +138,21 @@ bool Dissection::split_at_level(const QuotientGraph& g, Piece piece, std::int32_
     const auto off = [&](std::int32_t k) { return std::abs(2 * level_start_[k] - size); };
     if (middle < 0 || width(l) < width(middle) || (width(l) == width(middle) && off(l) < off(middle))) middle = l;
   }
-  if (middle < 0 || !thin((level_start_[middle + 1] - level_start_[middle]) / 4, size)) return false;
+  const std::int32_t most = 2 + size / part;
+  if (middle < 0 || (level_start_[middle + 1] - level_start_[middle]) / 4 > most) return false;
 
   // variables of the middle level without a neighbour behind it belong to the near side
   const auto first = front.begin() + level_start_[middle], last = front.begin() + level_start_[middle + 1];
   const auto separator = std::stable_partition(first, last, [&](std::int32_t x) { return !touches_next_level(g, x, label); });
   const auto width = static_cast<std::int32_t>(last - separator);
-  if (!thin(width, size)) return false;
+  if (width > most) return false;
   const auto t = static_cast<std::int32_t>(parent.size());
   parent.push_back(piece.parent);
   for (auto x = separator; x < last; ++x) home[*x] = t;
   const auto near = static_cast<std::int32_t>(separator - front.begin()), until = static_cast<std::int32_t>(last - front.begin());
   std::copy(front.begin(), front.end(), sequence_.begin() + piece.first);
-  if (near) stack_.push_back({piece.first, piece.first + near, t, true});  // all of it was reached through itself
-  if (until < size) stack_.push_back({piece.first + until, piece.last, t});
+  if (near) stack_.push_back({piece.first, piece.first + near, t, true, piece.searched});  // all of it was reached through itself
+  if (until < size) stack_.push_back({piece.first + until, piece.last, t, true});
   return true;
 }
 

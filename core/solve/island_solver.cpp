@@ -179,7 +179,9 @@ class Run {
 
   bool guessable() const {
     const MassParts& parts = basis_.response.parts();
-    const std::int64_t entries = parts.response_pointers[island_.last_row] - parts.response_pointers[island_.first_row];
+    const auto& row_pointers = basis_.pattern->row_pointers;
+    const std::int64_t entries = parts.response_pointers[island_.last_row] - parts.response_pointers[island_.first_row] +
+                                 (island_.last - island_.first == rows_ ? row_pointers[island_.last_row] - row_pointers[island_.first_row] : 0);
     return rows_ > few_rows && entries > 0 && entries <= short_response * rows_;
   }
 
