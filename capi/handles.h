@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <cstdio>
 #include <new>
 
@@ -17,13 +18,20 @@ struct ErrorText {
   void set(const char* message) { std::snprintf(text, sizeof text, "%s", message); }
 };
 
+/// What an object allocates first, beside it: large blocks are what a tiny problem's time goes to.
+template <std::size_t size>
+struct Room {
+  alignas(std::max_align_t) char bytes[size];
+};
+
 struct mlcp_problem {
+  Room<6144> room;
   mlcp::SmallBlocks blocks;
   mlcp::Problem problem;
   ErrorText error;
 
-  explicit mlcp_problem(const mlcp::Memory& memory) : blocks(memory), problem(memory, blocks.memory()) {}
-  explicit mlcp_problem(const mlcp::Problem& other) : blocks(other.memory), problem(other, blocks.memory()) {}
+  explicit mlcp_problem(const mlcp::Memory& memory) : blocks(memory, room.bytes), problem(memory, blocks.memory()) {}
+  explicit mlcp_problem(const mlcp::Problem& other) : blocks(other.memory, room.bytes), problem(other, blocks.memory()) {}
 };
 
 struct mlcp_mask {
@@ -35,6 +43,7 @@ struct mlcp_mask {
 };
 
 struct mlcp_solver {
+  Room<16384> room;
   mlcp::SmallBlocks blocks;
   mlcp::ContactSolver solver;
   mlcp_mask lent;  ///< what mlcp_solver_mask lends: the result's mask
@@ -42,7 +51,7 @@ struct mlcp_solver {
   ErrorText error;
 
   mlcp_solver(const mlcp::Settings& settings, const mlcp::Memory& memory)
-      : blocks(memory), solver(settings, blocks.memory()), lent(blocks.memory()), failures(blocks.memory()) {}
+      : blocks(memory, room.bytes), solver(settings, blocks.memory()), lent(blocks.memory()), failures(blocks.memory()) {}
 };
 
 namespace mlcp {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "analyze/crowding.h"
+#include "factorize/small_ldl.h"
 
 namespace mlcp {
 namespace {
@@ -21,6 +22,8 @@ constexpr std::int32_t many_rows = 400;
 constexpr bool seldom_dependent(std::int32_t rows, std::int32_t velocities) { return 10 * rows <= 11 * velocities; }
 /// Crowded ones of up to so many velocities are for interior points, whose steps cost as much as the velocities, not the rows.
 constexpr std::int32_t crowded_velocities = medium;
+/// Bodies that no row touches are solved one by one.
+constexpr std::int32_t largest_alone = 12;
 /// Errors above this are refined, and left to the sparse way if that does not help.
 constexpr double refined = 1e-13;
 /// A momentum error up to this is rounding.
@@ -68,6 +71,8 @@ bool DenseStage::takes(const SolveInput& input) {
   fits_ = true;
   crowded_ = false;
   interior_.assign(components.count(), 0);
+  alone_.resize(components.count());
+  for (std::int32_t c = 0; c < components.count(); ++c) alone_[c] = is_alone(c);
   for (std::int32_t c = 0; c < components.count() && fits_; ++c) {
     const std::int32_t velocities = components.velocity_count(c), rows = components.row_count(c), size = std::max(velocities, rows);
     fits_ = size <= small || (velocities == 0 && rows <= many_rows) || (rows <= medium && velocities <= many_velocities && seldom_dependent(rows, velocities)) ||
@@ -84,7 +89,9 @@ bool DenseStage::solve(const SolveInput& input, const Mask* start, Watch& watch,
   const Problem& problem = input.problem;
   const std::int32_t count = components.count();
   if (!prepared_) {
-    response_.prepare(problem, components, interior_.span());
+    left_out_.resize(count);
+    for (std::int32_t c = 0; c < count; ++c) left_out_[c] = interior_[c] | alone_[c];
+    response_.prepare(problem, components, left_out_.span());
     if (crowded_) normal_.prepare(problem, components, interior_.span());
   }
   prepared_ = true;
@@ -147,7 +154,31 @@ bool DenseStage::solve_crowded(const SolveInput& input, const Mask* start, Watch
   return true;
 }
 
+bool DenseStage::is_alone(std::int32_t c) const {
+  const std::int32_t d = components.velocity_count(c);
+  if (components.row_count(c) > 0 || d > largest_alone) return false;
+  const std::span<const std::int32_t> velocity = components.velocities_of(c);
+  return velocity.back() - velocity.front() == d - 1;
+}
+
+/// v = M⁻¹ k
+bool DenseStage::solve_alone(const Problem& problem, std::int32_t c, Result& result) {
+  const std::int32_t first = components.velocities_of(c).front(), d = components.velocity_count(c);
+  const SparseView mass = problem.mass_view();
+  double block[largest_alone * largest_alone];
+  std::fill_n(block, d * d, 0.0);
+  for (std::int32_t p = 0; p < d; ++p)
+    for (std::int32_t t = mass.pointers[first + p]; t < mass.pointers[first + p + 1]; ++t) block[d * p + (mass.indices[t] - first)] = mass.values[t];
+  if (!small_factor(d, block)) return false;
+  double* const v = result.v.data() + first;
+  std::copy_n(problem.momentum.data() + first, d, v);
+  small_solve(d, block, v);
+  ++counts_[c].factorizations;
+  return true;
+}
+
 bool DenseStage::solve_island(const SolveInput& input, const Mask* start, Watch& watch, std::int32_t c, Result& result) {
+  if (alone_[c]) return solve_alone(input.problem, c, result);
   if (interior_[c]) return solve_crowded(input, start, watch, c, result);
   if (!response_.compute(input.problem, c)) return false;
   DenseIsland& island = response_.island(c);
@@ -166,6 +197,7 @@ bool DenseStage::solve_island(const SolveInput& input, const Mask* start, Watch&
 /// One step against the residuals that the measurement has found. Once momentum is rounding its residual is left out, as in Refinement: then the
 /// correction is as small as the rows' own residuals.  false: there is nothing to do.
 bool DenseStage::refine(std::int32_t c, const Measure& measure, bool rows_alone, Result& result) {
+  if (alone_[c]) return false;
   double momentum = 0, rows = 0;
   for (const std::int32_t j : components.velocities_of(c)) momentum = std::max(momentum, measure.velocity_error(j));
   for (const std::int32_t i : components.rows_of(c)) rows = std::max(rows, measure.error[i]);
@@ -213,7 +245,7 @@ void DenseStage::stop(std::int32_t c, const Measure& measure, Result& result) {
 
 /// As mark_redundant: rows that hold, rest, and have a Schur pivot of at most dependent_pivot · a.
 void DenseStage::mark_redundant(std::int32_t c, const Measure& measure, Result& result) {
-  if (interior_[c]) return;
+  if (left_out_[c]) return;
   const DenseIsland& s = response_.island(c);
   for (std::int32_t i = 0; i < s.m; ++i) {
     const std::int32_t row = s.row[i];

@@ -12,7 +12,7 @@ namespace mlcp {
 /// cannot solve to rounding it leaves to Stage.
 class DenseStage {
  public:
-  explicit DenseStage(const Memory& m) : components(m), response_(m), normal_(m), interior_(m), counts_(m), solved_(m), parts_(m), tasks_(m) {}
+  explicit DenseStage(const Memory& m) : components(m), response_(m), normal_(m), interior_(m), alone_(m), left_out_(m), counts_(m), solved_(m), parts_(m), tasks_(m) {}
 
   Components components;
 
@@ -27,6 +27,8 @@ class DenseStage {
  private:
   bool solve_island(const SolveInput& input, const Mask* start, Watch& watch, std::int32_t c, Result& result);
   bool solve_crowded(const SolveInput& input, const Mask* start, Watch& watch, std::int32_t c, Result& result);
+  bool solve_alone(const Problem& problem, std::int32_t c, Result& result);
+  bool is_alone(std::int32_t c) const;
   bool refine(std::int32_t c, const Measure& measure, bool rows_alone, Result& result);
   void correct(std::int32_t c, const Measure& measure, bool rows_alone, Result& result);
   void correct_crowded(std::int32_t c, const Measure& measure, bool rows_alone, Result& result);
@@ -41,6 +43,8 @@ class DenseStage {
   DenseResponse response_;
   NormalEquations normal_;
   Array<std::uint8_t> interior_;  // by component: crowded, for interior points; the others are for active sets
+  Array<std::uint8_t> alone_;     // by component: a body that no row touches
+  Array<std::uint8_t> left_out_;  // by component: one of these, and so not in response_
   Array<Counts> counts_;        // by component
   Array<std::uint8_t> solved_;  // likewise, to begin with; then whether nothing was left to refine
   Array<Measure::Part> parts_;  // likewise

@@ -342,7 +342,8 @@ void Solver::State::clear_result(const Problem& problem) {
 /// Where every island is small.  false: it is not, or it could not be solved that way.
 bool Solver::State::solve_small(const SolveInput& input, const Mask* start, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts) {
   if (!dense.takes(input)) return false;
-  const double after_analysis = watch.seconds();
+  report.analyzed = !dense.knew();
+  report.seconds_analyze = report.analyzed ? watch.seconds() : 0;
   const Problem& problem = input.problem;
   clear_result(problem);
   take_given_velocities(problem);
@@ -352,8 +353,6 @@ bool Solver::State::solve_small(const SolveInput& input, const Mask* start, Watc
   result.island_outcome.assign(dense.components.count(), MLCP_SOLVED);
   result.row_island.assign(dense.components.of_row.span());
   report.method = MLCP_METHOD_NEWTON;
-  report.analyzed = !dense.knew();
-  report.seconds_analyze = report.analyzed ? after_analysis : 0;
   report.factor_entries = dense.entries();
   return true;
 }

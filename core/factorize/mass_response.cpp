@@ -3,27 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "factorize/small_ldl.h"
+
 namespace mlcp {
-namespace {
-
-/// L D Lᵀ of a dense symmetric block in place, columns of d: L below the diagonal, D on it. No roots, so that units of powers of two change no
-/// bit.  false: a pivot is not positive.
-bool decompose(std::int32_t d, double* block) {
-  for (std::int32_t c = 0; c < d; ++c) {
-    double* column = block + static_cast<std::int64_t>(c) * d;
-    for (std::int32_t k = 0; k < c; ++k) {
-      const double* before = block + static_cast<std::int64_t>(k) * d;
-      const double f = before[c] * before[k];  // l_ck · d_k
-      for (std::int32_t r = c; r < d; ++r) column[r] -= f * before[r];
-    }
-    if (!(column[c] > 0)) return false;
-    for (std::int32_t r = c + 1; r < d; ++r) column[r] /= column[c];
-  }
-  return true;
-}
-
-}  // namespace
-
 void MassResponse::prepare(const MassParts& parts, const KktPattern& pattern) {
   parts_ = &parts;
   pattern_ = &pattern;
@@ -48,7 +30,7 @@ bool MassResponse::compute(const Island& island, const KktValues& values, std::i
       const std::int32_t part = parts.response_parts[s], d = parts.size(part), padded = 4 * (parts.first_four[part + 1] - parts.first_four[part]);
       const std::int32_t* member = parts.members.data() + parts.pointers[part];
       for (std::int32_t c = 0; c < padded; ++c) j[c] = e[c] = c < d ? std::exchange(dense_[member[c]], 0.0) : 0.0;
-      solve_part(part, e);
+      small_solve(d, lower_.data() + parts.block[part], e);
       for (std::int32_t c = 0; c < d; ++c) a += j[c] * e[c];
       j += padded;
       e += padded;
@@ -81,30 +63,14 @@ bool MassResponse::decompose_part(std::int32_t part, const KktValues& values, st
     }
   }
   work += static_cast<std::int64_t>(d) * d;
-  return decompose(d, lower);
-}
-
-void MassResponse::solve_part(std::int32_t part, double* x) const {
-  const std::int32_t d = parts_->size(part);
-  const double* lower = lower_.data() + parts_->block[part];
-  if (d == 1) {
-    *x /= *lower;
-    return;
-  }
-  for (std::int32_t c = 0; c < d; ++c)
-    for (std::int32_t r = c + 1; r < d; ++r) x[r] -= lower[static_cast<std::int64_t>(c) * d + r] * x[c];
-  for (std::int32_t c = d; c-- > 0;) {
-    double sum = x[c] / lower[static_cast<std::int64_t>(c) * d + c];
-    for (std::int32_t r = c + 1; r < d; ++r) sum -= lower[static_cast<std::int64_t>(c) * d + r] * x[r];
-    x[c] = sum;
-  }
+  return small_factor(d, lower);
 }
 
 void MassResponse::solve(const Island& island, const double* x) {
   for (std::int32_t part = first_part(island); part < last_part(island); ++part) {
     double* u = velocity.data() + place(part);
     for (std::int32_t m = parts_->pointers[part]; m < parts_->pointers[part + 1]; ++m) u[m - parts_->pointers[part]] = x[parts_->members[m]];
-    solve_part(part, u);
+    small_solve(parts_->size(part), lower_.data() + parts_->block[part], u);
   }
 }
 

@@ -78,7 +78,6 @@ class MassResponse {
     return std::span(u.data() + place(first_part(island)), u.data() + place(last_part(island)));
   }
   bool decompose_part(std::int32_t part, const KktValues& values, std::int64_t& work);
-  void solve_part(std::int32_t part, double* x) const;
   const MassParts* parts_ = nullptr;
   const KktPattern* pattern_ = nullptr;
   Array<double> jacobian_, entries_;  // MassParts::fours, four numbers each

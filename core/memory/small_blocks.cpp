@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdint>
 #include <cstring>
 
 namespace mlcp {
@@ -56,13 +57,28 @@ void* SmallBlocks::take(int size_class) {
   return block;
 }
 
+bool SmallBlocks::is_in_room(const void* block) const {
+  const auto begin = reinterpret_cast<std::uintptr_t>(room_.data()), at = reinterpret_cast<std::uintptr_t>(block);
+  return at - begin < room_.size();
+}
+
+/// A block that is not small, as long as the room is what blocks are taken from.  NULL: it is not, or too full.
+void* SmallBlocks::take_from_room(std::size_t bytes) {
+  const std::size_t size = (bytes + smallest - 1) / smallest * smallest;
+  if (is_transparent || slabs_ || bytes > largest_in_room || static_cast<std::size_t>(end_ - next_) < size) return nullptr;
+  void* const block = next_;
+  next_ += size;
+  return block;
+}
+
 void* SmallBlocks::reallocate(void* self, void* block, std::size_t old_size, std::size_t new_size) {
   SmallBlocks& blocks = *static_cast<SmallBlocks*>(self);
   const bool was_small = block && is_small(old_size), small = is_small(new_size);
   if (was_small && small && size_class(old_size) == size_class(new_size)) return block;
   try {
-    if (!was_small && !small) return blocks.source_.reallocate(block, old_size, new_size);
-    void* const fresh = small ? blocks.take(size_class(new_size)) : blocks.source_.reallocate(nullptr, 0, new_size);
+    if (block && !was_small && !small && !blocks.is_in_room(block)) return blocks.source_.reallocate(block, old_size, new_size);
+    void* fresh = small ? blocks.take(size_class(new_size)) : block ? nullptr : blocks.take_from_room(new_size);
+    if (!fresh) fresh = blocks.source_.reallocate(nullptr, 0, new_size);
     if (!block) return fresh;
     std::memcpy(fresh, block, std::min(old_size, new_size));
     release(self, block, old_size);
@@ -74,9 +90,12 @@ void* SmallBlocks::reallocate(void* self, void* block, std::size_t old_size, std
 
 void SmallBlocks::release(void* self, void* block, std::size_t size) {
   SmallBlocks& blocks = *static_cast<SmallBlocks*>(self);
-  if (!is_small(size)) return blocks.source_.release(block, size);
-  Block*& first = blocks.free_[size_class(size)];
-  first = new (block) Block{first};
+  if (is_small(size)) {
+    Block*& first = blocks.free_[size_class(size)];
+    first = new (block) Block{first};
+  } else if (!blocks.is_in_room(block)) {  // else it goes with the room
+    blocks.source_.release(block, size);
+  }
 }
 
 }  // namespace mlcp

@@ -1,4 +1,6 @@
 #pragma once
+#include <span>
+
 #include "memory/memory.h"
 
 namespace mlcp {
@@ -8,7 +10,8 @@ namespace mlcp {
 /// everything does under an address sanitizer, which is to see every block by itself. Not for several threads.
 class SmallBlocks {
  public:
-  explicit SmallBlocks(const Memory& source) : source_(source) {}
+  /// room: what the first blocks are taken from, also a few that are not small; the caller's, aligned as by malloc, and there as long as this.
+  explicit SmallBlocks(const Memory& source, std::span<char> room = {}) : source_(source), room_(room), next_(room.data()), end_(room.data() + room.size()) {}
   SmallBlocks(const SmallBlocks&) = delete;
   SmallBlocks& operator=(const SmallBlocks&) = delete;
   ~SmallBlocks();
@@ -22,7 +25,7 @@ class SmallBlocks {
 
  private:
   static constexpr int sizes = 6;  // 32, 64 … 1024 bytes
-  static constexpr std::size_t smallest = 32, largest = smallest << (sizes - 1), slab_size = 8192;
+  static constexpr std::size_t smallest = 32, largest = smallest << (sizes - 1), slab_size = 8192, largest_in_room = 6144;
   struct Block {
     Block* next;
   };
@@ -32,11 +35,14 @@ class SmallBlocks {
   static void* reallocate(void* self, void* block, std::size_t old_size, std::size_t new_size);
   static void release(void* self, void* block, std::size_t size);
   void* take(int size_class);
+  void* take_from_room(std::size_t bytes);
+  bool is_in_room(const void* block) const;
 
   const Memory source_;
+  const std::span<char> room_;
   Block* free_[sizes] = {};
   Block* slabs_ = nullptr;
-  char *next_ = nullptr, *end_ = nullptr;  // of the last slab, what no block was taken from
+  char *next_, *end_;  // of the room or the last slab, what no block was taken from
 };
 
 }  // namespace mlcp

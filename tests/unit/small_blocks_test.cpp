@@ -83,5 +83,31 @@ TEST(SmallBlocks, AreTakenFromFewLargerOnes) {
   EXPECT_LE(source.calls, 2);
 }
 
+TEST(SmallBlocks, TheRoomIsTakenFirst) {
+  if (mlcp::SmallBlocks::is_transparent) GTEST_SKIP() << "every block is one of its own for the sanitizer";
+  Source source;
+  alignas(16) char room[8192];
+  const auto inside = [&](const void* block) { return block >= room && block < room + sizeof room; };
+  {
+    mlcp::SmallBlocks blocks(source.memory(), room);
+    mlcp::Array<double> small(blocks.memory()), medium(blocks.memory()), large(blocks.memory());
+    small.resize(4);
+    medium.resize(300);
+    large.resize(800);
+    EXPECT_TRUE(inside(small.data()) && inside(medium.data()) && !inside(large.data()));
+    EXPECT_EQ(source.calls, 1);
+    for (int i = 0; i < 300; ++i) medium[i] = i;
+    medium.resize(1000);  // leaves the room
+    EXPECT_FALSE(inside(medium.data()));
+    for (int i = 0; i < 300; ++i) EXPECT_EQ(medium[i], i);
+    medium.clear();
+    medium.trim();
+    std::vector<mlcp::Array<double>> arrays(60, mlcp::Array<double>(blocks.memory()));
+    for (auto& array : arrays) array.resize(100);  // more than the room
+    EXPECT_GT(source.calls, 2);
+  }
+  EXPECT_EQ(source.blocks, 0);
+}
+
 }  // namespace
 }  // namespace support
