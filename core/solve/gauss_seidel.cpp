@@ -9,8 +9,9 @@
 namespace mlcp {
 namespace {
 
-/// A guess is good enough for the exact methods when a cycle moves at most one row in so many from or to a bound.
-constexpr std::int32_t quiet = 400;
+/// A guess is good enough for the exact methods when a cycle moves at most one row in so many from or to a bound; from impulses that are nearly right
+/// cycles move few rows from the start.
+constexpr std::int32_t quiet = 100, quiet_warm = 400;
 /// Where cycles do not bring this down, rows depend on each other and go on taking each other's loads.
 constexpr double worth_it = 1.3;
 /// The same of half as many sweeps alone.
@@ -104,19 +105,19 @@ void GaussSeidel::guess(const Island& island, bool warm) {
   std::int32_t moved = sweeps(sweeps_between / 2);
   if (cycles_pay(island)) {
     Subspace subspace(basis_, counts_);
-    for (std::int32_t c = 0, before = rows; quiet * moved > rows && c < most_cycles && go_on(); ++c) {
+    const std::int32_t enough = rows / (warm ? quiet_warm : quiet);
+    for (std::int32_t c = 0, before = rows; moved > enough && c < most_cycles && go_on(); ++c) {
       subspace.minimise(island, gradients);
       moved = sweeps(sweeps_between);
       if (worth_it * moved > before) break;
       before = moved;
     }
   } else {
-    for (int c = 0; quiet_alone * moved > rows && c < most_cycles && go_on(); ++c) moved = sweeps(sweeps_between / 2);
+    for (int c = 0; moved > rows / quiet_alone && c < most_cycles && go_on(); ++c) moved = sweeps(sweeps_between / 2);
   }
   basis_.response.give(island, basis_.set.x.data());
 }
 
-/// Full steps from a worse guess take more factorizations. So long as these are cheap, so is that.
 bool GaussSeidel::cycles_pay(const Island& island) const {
   const Symbolic& symbolic = basis_.factor.symbolic();
   const MassParts& parts = basis_.response.parts();

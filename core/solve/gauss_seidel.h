@@ -14,13 +14,15 @@ class GaussSeidel {
   /// false: M couples too many velocities, or is not positive definite; nothing has changed.
   bool prepare(const Island& island);
   /// Sweeps and conjugate gradients (Subspace) in turns until hardly a row leaves or reaches a bound any more; puts the rows where their impulses are.
-  /// warm: the impulses are nearly right.
+  /// warm: the impulses are nearly right; before: cycles pay.
   void guess(const Island& island, bool warm);
+  /// Whether conjugate gradients between the sweeps of a guess are worth their time: full steps from a worse guess take more factorizations, and so long as
+  /// these are cheap, so is that. Where they are, sweeps from nearly right impulses are not worth theirs.
+  bool cycles_pay(const Island& island) const;
   /// Sweeps until every error is within the tolerance.
   mlcp_outcome solve(const Island& island, double tolerance);
 
  private:
-  bool cycles_pay(const Island& island) const;
   void start(const Island& island);
   void sweep(const Island& island);
   double error(const Island& island);

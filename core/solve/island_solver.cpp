@@ -61,7 +61,7 @@ class Run {
     }
     if (method == MLCP_METHOD_PGS && sweep()) return;
     const bool pivots_open = method == MLCP_METHOD_AUTO && !input_.follows_shifts() && !island_.crowded;
-    const bool improves = warm && !input_.follows_shifts() && knows_impulses();
+    const bool improves = warm && !input_.follows_shifts() && guessable() && GaussSeidel(basis_, limits_, end_.counts).cycles_pay(island_) && knows_impulses();
     if (improves) guess(true);
     if (newton(warm, {.guess = warm && !improves && guessable(), .pivots = pivots_open})) return;
     if (left_.guess) {
