@@ -103,7 +103,7 @@ void GaussSeidel::guess(const Island& island, bool warm) {
   start(island);
   if (!warm) sweeps(first_sweeps);
   std::int32_t moved = sweeps(sweeps_between / 2);
-  if (cycles_pay(island)) {
+  if (cycles_pay(island) && !must_depend(island)) {
     Subspace subspace(basis_, counts_);
     const std::int32_t enough = rows / (warm ? quiet_warm : quiet);
     for (std::int32_t c = 0, before = rows; moved > enough && c < most_cycles && go_on(); ++c) {
@@ -112,10 +112,17 @@ void GaussSeidel::guess(const Island& island, bool warm) {
       if (worth_it * moved > before) break;
       before = moved;
     }
-  } else {
+  } else if (!must_depend(island)) {
     for (int c = 0; moved > rows / quiet_alone && c < most_cycles && go_on(); ++c) moved = sweeps(sweeps_between / 2);
   }
   basis_.response.give(island, basis_.set.x.data());
+}
+
+bool GaussSeidel::must_depend(const Island& island) const {
+  const std::uint8_t* state = basis_.set.state.data();
+  const auto active = std::count(state + island.first_row, state + island.last_row, ActiveSet::active);
+  const std::int32_t velocities = island.last - island.first - (island.last_row - island.first_row);
+  return velocities > 0 && active > velocities;
 }
 
 bool GaussSeidel::cycles_pay(const Island& island) const {

@@ -19,6 +19,9 @@ class GaussSeidel {
   /// Whether conjugate gradients between the sweeps of a guess are worth their time: full steps from a worse guess take more factorizations, and so long as
   /// these are cheap, so is that. Where they are, sweeps from nearly right impulses are not worth theirs.
   bool cycles_pay(const Island& island) const;
+  /// More rows are active than there are velocities. Then loads can be shared in many ways, and the longer a guess goes on, the more rows that contradict each
+  /// other by a rounding it leaves between their bounds.
+  bool must_depend(const Island& island) const;
   /// Sweeps until every error is within the tolerance.
   mlcp_outcome solve(const Island& island, double tolerance);
 
