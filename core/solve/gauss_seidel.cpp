@@ -11,9 +11,7 @@ namespace {
 
 /// A guess is good enough for the exact methods when a cycle moves at most one row in so many from or to a bound; from impulses that are nearly right
 /// cycles move few rows from the start.
-constexpr std::int32_t quiet = 100, quiet_warm = 400;
-/// Where cycles do not bring this down, rows depend on each other and go on taking each other's loads.
-constexpr double worth_it = 1.3;
+constexpr std::int32_t quiet = 100, quiet_warm = 1200;
 /// The same of half as many sweeps alone.
 constexpr std::int32_t quiet_alone = 800;
 /// Twice the products of a factorization, by the numbers that a sweep reads, from which on cycles pay.
@@ -106,11 +104,9 @@ void GaussSeidel::guess(const Island& island, bool warm) {
   if (cycles_pay(island) && !must_depend(island)) {
     Subspace subspace(basis_, counts_);
     const std::int32_t enough = rows / (warm ? quiet_warm : quiet);
-    for (std::int32_t c = 0, before = rows; moved > enough && c < most_cycles && go_on(); ++c) {
+    for (int c = 0; moved > enough && c < most_cycles && go_on(); ++c) {
       subspace.minimise(island, gradients);
       moved = sweeps(sweeps_between);
-      if (worth_it * moved > before) break;
-      before = moved;
     }
   } else if (!must_depend(island)) {
     for (int c = 0; moved > rows / quiet_alone && c < most_cycles && go_on(); ++c) moved = sweeps(sweeps_between / 2);
