@@ -1,5 +1,8 @@
 #include "analyze/components.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "analyze/union_find.h"
 
 namespace mlcp {
@@ -15,6 +18,7 @@ bool Components::covers(const Problem& problem, const Mask* enabled) const {
 
 bool Components::update(const Problem& problem, const Mask* enabled) {
   if (covers(problem, enabled)) return false;
+  const bool same_masses = masses_stay(problem);
   known_ = false;
   fixed_.assign(problem.n(), 0);
   for (const Body& body : problem.bodies)
@@ -23,10 +27,22 @@ bool Components::update(const Problem& problem, const Mask* enabled) {
   if (enabled)
     for (std::int32_t i = 0; i < problem.m(); ++i) enabled_[i] = enabled->state[i] != MLCP_ROW_DISABLED;
   set_free_apart(problem);
-  join_all(problem);
+  if (!same_masses) join_masses(problem);
+  join_rows(problem);
+  std::swap(velocity_pointers, last_pointers_);
+  std::swap(velocities, last_velocities_);
   sort(problem);
+  if (!same_masses || !std::ranges::equal(velocity_pointers, last_pointers_) || !std::ranges::equal(velocities, last_velocities_)) ++mass_version_;
   pattern_.take(problem);
   return known_ = true;
+}
+
+/// What M joins is what it was at the last update.
+bool Components::masses_stay(const Problem& problem) const {
+  if (!known_ || static_cast<std::int32_t>(fixed_.size()) != problem.n()) return false;
+  for (const Body& body : problem.bodies)
+    if (body.dimension > 0 && fixed_[body.offset] != body.prescribed) return false;
+  return pattern_.fits_mass(problem);
 }
 
 /// Most velocities of a scene may be free: what follows looks at the others alone.
@@ -51,18 +67,26 @@ void Components::set_free_apart(const Problem& problem) {
   coupled_.resize(coupled - coupled_.data());
 }
 
-void Components::join_all(const Problem& problem) {
-  const std::int32_t n = problem.n(), m = problem.m();
-  const SparseView mass = problem.mass_view(), jacobian = problem.jacobian_view(), sigma = problem.compliance_view();
-  start_sets(parent_, n + m);
+/// Velocities that are in coupled_ at one time and not at another have a diagonal mass, which joins nothing.
+void Components::join_masses(const Problem& problem) {
+  const SparseView mass = problem.mass_view();
+  start_sets(joined_, problem.n());
   for (const std::int32_t j : coupled_) {
     const Body& body = problem.bodies[problem.body_of[j]];
     if (!body.sparse)
-      parent_[j] = body.offset;
+      joined_[j] = body.offset;
     else
       for (std::int32_t t = mass.pointers[j]; t < mass.pointers[j + 1]; ++t)
-        if (mass.indices[t] < j) join(parent_, j, mass.indices[t]);
+        if (mass.indices[t] < j) join(joined_, j, mass.indices[t]);
   }
+}
+
+void Components::join_rows(const Problem& problem) {
+  const std::int32_t n = problem.n(), m = problem.m();
+  const SparseView jacobian = problem.jacobian_view(), sigma = problem.compliance_view();
+  parent_.resize(n + m);
+  std::copy(joined_.begin(), joined_.end(), parent_.begin());
+  for (std::int32_t i = 0; i < m; ++i) parent_[n + i] = n + i;
   for (std::int32_t i = 0; i < m; ++i) {
     if (!enabled_[i]) continue;
     for (std::int32_t t = jacobian.pointers[i]; t < jacobian.pointers[i + 1]; ++t)

@@ -9,7 +9,7 @@ namespace mlcp {
 class Components {
  public:
   explicit Components(const Memory& m)
-      : velocity_pointers(m), velocities(m), row_pointers(m), rows(m), free_velocity(m), of_row(m), parent_(m), index_(m), coupled_(m), touched_(m), fixed_(m),
+      : velocity_pointers(m), velocities(m), row_pointers(m), rows(m), free_velocity(m), of_row(m), parent_(m), index_(m), joined_(m), last_pointers_(m), last_velocities_(m), coupled_(m), touched_(m), fixed_(m),
         enabled_(m), pattern_(m) {}
 
   Array<std::int32_t> velocity_pointers, velocities;  ///< component → velocities, ascending
@@ -28,15 +28,22 @@ class Components {
   /// cost: nearly O(entries of M, J and Σ); a comparison of them where the pattern is known.
   bool update(const Problem& problem, const Mask* enabled);
   void forget() { known_ = false; }
+  /// Another one whenever an update has found another pattern of M or other velocities in some component: until then what depends on these alone stands.
+  std::int64_t mass_version() const { return mass_version_; }
 
  private:
   bool covers(const Problem& problem, const Mask* enabled) const;
   void set_free_apart(const Problem& problem);
-  void join_all(const Problem& problem);
+  bool masses_stay(const Problem& problem) const;
+  void join_masses(const Problem& problem);
+  void join_rows(const Problem& problem);
   void sort(const Problem& problem);
 
   bool known_ = false;
+  std::int64_t mass_version_ = 0;
   Array<std::int32_t> parent_, index_;
+  Array<std::int32_t> joined_;   // n: parent_ of velocities before any row has joined them
+  Array<std::int32_t> last_pointers_, last_velocities_;  // at the update before
   Array<std::int32_t> coupled_;  // dynamic velocities that are not free, ascending
   Array<std::uint8_t> touched_;  // n: by enabled rows
   Array<std::uint8_t> fixed_;    // n: 1 on prescribed velocities

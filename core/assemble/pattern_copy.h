@@ -16,7 +16,8 @@ class PatternCopy {
     compliance_.take(p.compliance);
   }
   /// cost: a comparison of the indices.
-  bool fits(const Problem& p) const { return mass_.fits(p.mass) && jacobian_.fits(p.jacobian) && compliance_.fits(p.compliance); }
+  bool fits_mass(const Problem& p) const { return mass_.fits(p.mass); }
+  bool fits(const Problem& p) const { return fits_mass(p) && jacobian_.fits(p.jacobian) && compliance_.fits(p.compliance); }
 
  private:
   struct One {

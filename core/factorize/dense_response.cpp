@@ -13,7 +13,7 @@ std::int64_t real_count(std::int64_t m, std::int64_t blocks, std::int64_t panels
   return BlockLdl::reals(blocks) + 12 * blocks + 16 * blocks * panels + 32 * panels * panels + BlockLdl::reals(panels) + 4 * panels + 7 * m +
          4 * (blocks + panels) + 16 * blocks;
 }
-std::int64_t integer_count(std::int64_t m, std::int64_t blocks, std::int64_t panels) { return blocks + 3 * panels + m; }
+std::int64_t integer_count(std::int64_t m, std::int64_t panels) { return 3 * panels + m; }
 
 }  // namespace
 
@@ -21,16 +21,18 @@ void DenseResponse::prepare(const Problem& problem, const Components& components
   components_ = &components;
   const auto stays = [&](std::int32_t c) { return !left_out.empty() && left_out[c] != 0; };
   const std::int32_t n = problem.n(), count = components.count();
+  const bool same_masses = mass_version_ == components.mass_version() && std::ranges::equal(left_out, left_out_);
   places_.resize(count + 1);
   local_.assign(n + problem.m(), -1);
-  std::int64_t reals = 0, integers = 0;
+  std::int64_t reals = 0, integers = 0, velocity_blocks = 0;
   for (std::int32_t c = 0; c < count; ++c) {
-    places_[c] = {reals, integers, 0, components.row_pointers[c]};
+    places_[c] = {reals, integers, places_[c].slots, velocity_blocks, components.row_pointers[c]};
     if (stays(c)) continue;
     const std::int32_t own_n = components.velocity_count(c), own_m = components.row_count(c);
     const std::int32_t blocks = BlockLdl::blocks_of(own_n), panels = BlockLdl::blocks_of(own_m);
     reals += real_count(own_m, blocks, panels);
-    integers += integer_count(own_m, blocks, panels);
+    integers += integer_count(own_m, panels);
+    velocity_blocks += blocks;
     for (std::int32_t p = 0; p < own_n; ++p) local_[components.velocities[components.velocity_pointers[c] + p]] = own_n - 1 - p;
     for (std::int32_t i = 0; i < own_m; ++i) local_[n + components.rows[components.row_pointers[c] + i]] = i;
   }
@@ -38,16 +40,23 @@ void DenseResponse::prepare(const Problem& problem, const Components& components
   integers_.resize(integers);
   states_.resize(components.rows.size());
   members_.resize(count);
-  slots_.resize(problem.mass.values.size());  // more than there will be
+  first_.resize(velocity_blocks);
   islands_.resize(count);
+  for (std::int32_t c = 0; c < count; ++c) {
+    if (stays(c)) continue;
+    islands_[c] = lay_out(c);
+    find_row_envelopes(problem, islands_[c]);
+  }
+  if (same_masses) return;
+  slots_.resize(problem.mass.values.size());  // more than there will be
   Slot* next = slots_.data();
   for (std::int32_t c = 0; c < count; ++c) {
     places_[c].slots = next - slots_.data();
-    if (stays(c)) continue;
-    DenseIsland& s = islands_[c] = lay_out(c);
-    next = find_envelopes(problem, s, next);
+    if (!stays(c)) next = find_mass_envelope(problem, islands_[c], next);
   }
   places_[count].slots = next - slots_.data();
+  left_out_.assign(left_out);
+  mass_version_ = components.mass_version();
 }
 
 /// Where the parts of component c are.
@@ -78,15 +87,15 @@ DenseIsland DenseResponse::lay_out(std::int32_t c) {
   s.x = take(real, 4 * (blocks + panels));
   s.scaled = take(real, 16 * blocks);
   s.tableau = take(real, 16 * panels * panels);
-  s.mass.first = take(integer, blocks);
+  s.mass.first = first_.data() + place.blocks;
   for (std::int32_t** part : {&s.begin, &s.end, &s.active.first}) *part = take(integer, panels);
   s.member = take(integer, m);
   s.state = states_.data() + place.rows;
   return s;
 }
 
-DenseResponse::Slot* DenseResponse::find_envelopes(const Problem& problem, DenseIsland& s, Slot* slot) {
-  const SparseView mass = problem.mass_view(), jacobian = problem.jacobian_view();
+DenseResponse::Slot* DenseResponse::find_mass_envelope(const Problem& problem, const DenseIsland& s, Slot* slot) {
+  const SparseView mass = problem.mass_view();
   for (std::int32_t b = 0; b < s.blocks; ++b) {
     std::int32_t first = 4 * b;
     for (std::int32_t p = first; p < std::min(4 * b + 4, s.n); ++p) {
@@ -100,6 +109,11 @@ DenseResponse::Slot* DenseResponse::find_envelopes(const Problem& problem, Dense
     }
     s.mass.first[b] = first / 4;
   }
+  return slot;
+}
+
+void DenseResponse::find_row_envelopes(const Problem& problem, DenseIsland& s) {
+  const SparseView jacobian = problem.jacobian_view();
   for (std::int32_t c = 0; c < s.panels; ++c) {
     std::int32_t begin = 4 * s.blocks;
     for (std::int32_t i = 4 * c; i < std::min(4 * c + 4, s.m); ++i)
@@ -107,7 +121,6 @@ DenseResponse::Slot* DenseResponse::find_envelopes(const Problem& problem, Dense
         if (const std::int32_t p = local_[jacobian.indices[t]]; p >= 0) begin = std::min(begin, p);
     s.begin[c] = begin / 4;
   }
-  return slot;
 }
 
 bool DenseResponse::compute(const Problem& problem, std::int32_t component) {

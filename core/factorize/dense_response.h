@@ -46,9 +46,10 @@ struct DenseIsland {
 /// The numbers of small islands. Each has its own part, so that several threads may work on different ones.
 class DenseResponse {
  public:
-  explicit DenseResponse(const Memory& m) : places_(m), local_(m), slots_(m), reals_(m), integers_(m), members_(m), states_(m), islands_(m) {}
+  explicit DenseResponse(const Memory& m) : places_(m), local_(m), slots_(m), first_(m), left_out_(m), reals_(m), integers_(m), members_(m), states_(m), islands_(m) {}
 
-  /// Room for every component but those that `left_out` names, and what follows from the pattern. allocates
+  /// Room for every component but those that `left_out` names, and what follows from the pattern; what follows from that of M alone is kept as long as its
+  /// version stays. components: always the same object. allocates
   void prepare(const Problem& problem, const Components& components, std::span<const std::uint8_t> left_out = {});
   DenseIsland& island(std::int32_t c) { return islands_[c]; }
   std::int64_t entries() const { return static_cast<std::int64_t>(reals_.size()); }
@@ -73,7 +74,7 @@ class DenseResponse {
 
  private:
   struct Place {
-    std::int64_t reals, integers, slots;  // the slots end where those of the next one begin
+    std::int64_t reals, integers, slots, blocks;  // the slots end where those of the next one begin
     std::int32_t rows;
   };
   /// An entry of M on or below the diagonal of its island: values[from] belongs at mass.lower[to].
@@ -81,8 +82,10 @@ class DenseResponse {
     std::int32_t from, to;
   };
   DenseIsland lay_out(std::int32_t c);
-  /// And lists the entries of M from `slot` on.  returns behind the last one.
-  Slot* find_envelopes(const Problem& problem, DenseIsland& island, Slot* slot);
+  /// Of M, whose entries it lists from `slot` on.  returns behind the last one.
+  Slot* find_mass_envelope(const Problem& problem, const DenseIsland& island, Slot* slot);
+  /// Of Y.
+  void find_row_envelopes(const Problem& problem, DenseIsland& island);
   bool load_mass(const Problem& problem, DenseIsland& island, std::span<const Slot> slots);
   void load_row(const Problem& problem, DenseIsland& island, std::int32_t i);
   void respond(DenseIsland& island, std::int32_t panel);
@@ -94,6 +97,9 @@ class DenseResponse {
   Array<Place> places_;
   Array<std::int32_t> local_;  // n: velocity → its number in its island, −1 in none; m behind it: rows
   Array<Slot> slots_;
+  Array<std::int32_t> first_;        // of every island's M: BlockLdl::first
+  Array<std::uint8_t> left_out_;     // at the last prepare()
+  std::int64_t mass_version_ = -1;   // of the components that slots_ and first_ are of
   Array<double> reals_;
   Array<std::int32_t> integers_;
   Array<std::int32_t> members_;  // by component

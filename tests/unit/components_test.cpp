@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "assemble/bodies.h"
+#include "factorize/dense_response.h"
 #include "support/random_problem.h"
 #include "support/solution.h"
 
@@ -72,6 +73,41 @@ TEST(Components, AreFoundAgainOnlyWhenThePatternHasChanged) {
   EXPECT_EQ(c.velocities.size(), 0u);
   add_row(p, {{0, 1}});
   EXPECT_TRUE(c.update(p, nullptr));
+}
+
+/// Steps of a scene: rows come and go, a body is prescribed now and then, M's pattern changes. What is kept from update to update must not show.
+TEST(Components, OfOneStepAfterTheOtherAreThoseFoundAfresh) {
+  int kept = 0;
+  for (int seed = 0; seed < 60; ++seed) {
+    Random random(seed);
+    mlcp::Problem p = random_problem(random, {.bodies_most = 6, .rows_most = 8, .disabled = 0});
+    mlcp::Components c{mlcp::Memory()};
+    mlcp::DenseResponse response{mlcp::Memory()};
+    std::int64_t version = -1;
+    for (int step = 0; step < 12; ++step) {
+      if (random.chance(0.1)) p = random_problem(random, {.bodies_most = 6, .rows_most = 8, .disabled = 0});
+      const mlcp::Mask enabled = enabled_mask(random, p.m(), 0.4);
+      mlcp::Components fresh{mlcp::Memory()};
+      c.update(p, &enabled);
+      fresh.update(p, &enabled);
+      ASSERT_EQ(list(c.velocity_pointers), list(fresh.velocity_pointers)) << "seed " << seed;
+      ASSERT_EQ(list(c.velocities), list(fresh.velocities)) << "seed " << seed;
+      ASSERT_EQ(list(c.rows), list(fresh.rows)) << "seed " << seed;
+      ASSERT_EQ(list(c.of_row), list(fresh.of_row)) << "seed " << seed;
+      ASSERT_EQ(list(c.free_velocity), list(fresh.free_velocity)) << "seed " << seed;
+      kept += c.mass_version() == version;
+      version = c.mass_version();
+      mlcp::DenseResponse other{mlcp::Memory()};
+      response.prepare(p, c);
+      other.prepare(p, fresh);
+      for (int i = 0; i < c.count(); ++i) {
+        ASSERT_EQ(response.compute(p, i), other.compute(p, i)) << "seed " << seed;
+        const mlcp::DenseIsland &a = response.island(i), &b = other.island(i);
+        for (int row = 0; row < a.m; ++row) ASSERT_EQ(a.response(row, row), b.response(row, row)) << "seed " << seed;
+      }
+    }
+  }
+  EXPECT_GT(kept, 100);
 }
 
 TEST(Components, AreTheIslandsOfTheSparseFactor) {
