@@ -23,6 +23,7 @@ NEWTON, PROXIMAL, INTERIOR = ("core/solve/newton.cpp", "core/solve/proximal.cpp"
 EXTENDED, SYMBOLIC = ("core/solve/extended_simplex.cpp", "core/analyze/symbolic.cpp")
 ORDERING, LINEAGE, ANALYSIS = ("core/analyze/ordering.cpp", "core/analyze/lineage.cpp", "core/analyze/analysis.cpp")
 QUOTIENT = "core/analyze/quotient_graph.cpp"
+SUBSPACE, ISLANDS = "core/solve/subspace.cpp", "core/solve/island_solver.cpp"
 TESTS = ("unit_tests", "property_tests", "capi_tests")
 
 # name: file, text that stands there exactly once, what takes its place. Not among them: what only costs steps, as Newton's patience, which the limit of
@@ -149,7 +150,7 @@ MUTATIONS = {
     "extended: dependent rows start": (EXTENDED, "else if (pivot(o) > dependent * terms(o))", "else if (true)"),
     "extended: satisfied forgotten": (EXTENDED, "if (magnitude(w) > forgiven) return certify", "if (true) return certify"),
     "batches: of unequal rows": (SYMBOLIC, " || !equal(p - 1, p)", ""),
-    "guess: sweeps on when the time is over": ("core/solve/gauss_seidel.cpp", " || limits_.check(counts_, 0) != MLCP_SOLVED", ""),
+    "guess: sweeps on when the time is over": ("core/solve/gauss_seidel.cpp", "return limits_.check(counts_, 0) == MLCP_SOLVED; };", "return true; };"),
     "proximal: centre's sign": (PROXIMAL, "(-e * basis_.work.center[basis_.position(o)] - slack) / (sigma + e)", "(e * basis_.work.center[basis_.position(o)] - slack) / (sigma + e)"),
     "lineage: two trees": (LINEAGE, "return chain_end_[q];", "return q;"),
     "lineage: ends of chains": (LINEAGE, "parent[p] == p + 1 ? chain_end_[p + 1] : p", "chain_end_[p + 1 < size ? p + 1 : p]"),
@@ -162,6 +163,16 @@ MUTATIONS = {
     "crowded order: rows of one velocity among equal rows": (QUOTIENT, "if (count_of_dynamic == 1) return velocity;", ""),
     "crowded order: coupled rows follow others": (QUOTIENT, "if (!alone(i)) return -1;", ""),
     "crowded order: followers are lost": (ORDERING, "    place(elements + x);\n    order.push_back", "    order.push_back"),
+    "column counts: where two paths meet": ("core/analyze/column_counts.cpp", "--count[meet(latest_[i])];", "--count[latest_[i]];"),
+    "tree of the problem: rows that Σ couples": ("core/analyze/elimination_tree.cpp", "climb_from(sigma, order[p] - n, n, p);", ""),
+    "parts: velocities of different rows in one four": ("core/analyze/mass_parts.cpp", "first_row(p) == first_row(last)) ++last;", "true) ++last;"),
+    "refinement: rows before their velocities": ("core/factorize/refinement.cpp", "if (row && !island.crowded) continue;", "if (row) continue;"),
+    "gradients: rows that Σ couples": (SUBSPACE, "sum += k.row[t] * step[pattern.row_columns[t]];", ";"),
+    "gradients: impulses stay beyond their bounds": (SUBSPACE, "  put_back(free);\n", ""),
+    "guess: sweeps alone": ("core/solve/gauss_seidel.cpp", "      subspace.minimise(island, gradients);\n", ""),
+    "guess: rows that depend on each other go on": ("core/solve/gauss_seidel.cpp", "return velocities > 0 && active > velocities;", "return velocities > 0 && active > 2 * velocities;"),
+    "warm start: states alone are thrown away": (ISLANDS, "== ActiveSet::active && basis_.gamma(o) != 0) return true;", "== ActiveSet::active) return true;"),
+    "Newton: contradictions that are no rounding": (NEWTON, "return !(largest <= grown * asked);", "return false;"),
     "cones: slacks of a large friction in double": ("core/measure/cones.cpp", "constexpr double steep = 1e3;", "constexpr double steep = 1e300;"),
     "dense refinement: beyond a bound": ("core/dense_stage.cpp", "gamma = std::clamp(gamma + s.x_rows()[t], s.lo[i], s.hi[i]);", "gamma = gamma + s.x_rows()[t];"),
 }

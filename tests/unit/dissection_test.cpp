@@ -150,6 +150,34 @@ TEST(Dissection, RandomGraphsAreSeparated) {
   }
 }
 
+/// Halves are cut by the levels of the whole, whether they are connected or not.
+TEST(Dissection, LongTreesAndRingsAreCutByTheirLevels) {
+  for (int seed = 0; seed < 8; ++seed) {
+    Random random(seed);
+    const int n = 500, reach = 1 + seed % 4;
+    std::vector<std::pair<int, int>> edges;
+    for (int i = 1; i < n; ++i) edges.push_back({i, std::max(0, i - random.integer(1, reach))});
+    if (seed % 3 == 0) edges.push_back({0, n - 1});
+    const Cut c(graph_problem(n, edges));
+    expect_separators(c);
+    EXPECT_LE(longest_path(graph_problem(n, edges)), 40) << "seed " << seed;
+    EXPECT_GT(c.dissection.parent.size(), 30u) << "seed " << seed;
+  }
+}
+
+/// A far half of many pieces: chains that hang on one link.
+TEST(Dissection, ChainsThatMeetAreCutApart) {
+  for (const int chains : {2, 3, 4, 9}) {
+    constexpr int links = 80;
+    std::vector<std::pair<int, int>> edges;
+    for (int c = 0; c < chains; ++c)
+      for (int i = 0; i < links; ++i) edges.push_back({1 + c * links + i, i > 0 ? c * links + i : 0});
+    const mlcp::Problem p = graph_problem(1 + chains * links, edges);
+    expect_separators(Cut(p));
+    EXPECT_LE(longest_path(p), 60) << chains;
+  }
+}
+
 TEST(Dissection, ElementsAreSeparated) {
   for (int seed = 0; seed < 20; ++seed) {
     Random random(seed);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "support/random_problem.h"
 #include "support/stage.h"
 
@@ -85,6 +87,63 @@ TEST(EliminationTree, PostorderKeepsSubtreesTogetherAndIsIdempotent) {
     // the same fill
     ASSERT_EQ(entries(eliminate(kkt_pattern(p, order))), entries(eliminate(kkt_pattern(p, after)))) << "seed " << seed;
   }
+}
+
+std::vector<int> list(const mlcp::Array<std::int32_t>& a) { return {a.begin(), a.end()}; }
+
+/// Some of the nodes, every row behind the velocities that it touches.
+std::vector<std::int32_t> some_order(Random& random, const mlcp::Problem& problem) {
+  const int n = problem.n();
+  std::vector<double> when(n + problem.m());
+  for (double& t : when) t = random.uniform(0, 1);
+  std::vector<std::int32_t> order;
+  for (int node = 0; node < static_cast<int>(when.size()); ++node)
+    if (random.chance(0.85)) order.push_back(node);
+  for (int i = 0; i < problem.m(); ++i)
+    for (auto t = problem.jacobian.pointers[i]; t < problem.jacobian.pointers[i + 1]; ++t)
+      when[n + i] = std::max(when[n + i], when[problem.jacobian.indices[t]]);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return when[a] < when[b]; });
+  return order;
+}
+
+/// By the same tree for all of them: smaller problems come after larger ones.
+TEST(EliminationTree, OfTheProblemIsThatOfThePattern) {
+  Shape shape;
+  shape.bodies_most = 6;
+  shape.rows_most = 14;
+  mlcp::EliminationTree tree{mlcp::Memory()};
+  for (int seed = 0; seed < 400; ++seed) {
+    Random random(seed);
+    const mlcp::Problem p = seed % 4 ? random_problem(random, shape) : random_reduced(random, random.integer(1, 12), 3, true);
+    const std::vector<std::int32_t> order = some_order(random, p);
+    tree.build(p, order);
+    ASSERT_EQ(list(tree.parent), tree_of(eliminate(kkt_pattern(p, order)))) << "seed " << seed;
+    ASSERT_EQ(list(tree.parent), Tree(p, order).parent()) << "seed " << seed;
+  }
+}
+
+TEST(EliminationTree, RelabelledIsThatOfTheRelabelledOrder) {
+  Shape shape;
+  shape.bodies_most = 6;
+  shape.rows_most = 14;
+  mlcp::EliminationTree tree{mlcp::Memory()};
+  mlcp::Array<std::int32_t> sequence{mlcp::Memory()};
+  int moved = 0;
+  for (int seed = 0; seed < 300; ++seed) {
+    Random random(seed);
+    const mlcp::Problem p = random_problem(random, shape);
+    std::vector<std::int32_t> order = some_order(random, p);
+    tree.build(p, order);
+    tree.postorder(sequence);
+    tree.relabel(sequence.span());
+    std::vector<std::int32_t> after;
+    for (const std::int32_t q : sequence) after.push_back(order[q]);
+    moved += after != order;
+    ASSERT_EQ(list(tree.parent), Tree(p, after).parent()) << "seed " << seed;
+    tree.postorder(sequence);
+    ASSERT_TRUE(std::is_sorted(sequence.begin(), sequence.end())) << "seed " << seed;
+  }
+  EXPECT_GT(moved, 150);
 }
 
 }  // namespace

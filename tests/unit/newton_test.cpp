@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "../../capi/handles.h"
 #include "assemble/compliance.h"
+#include "measure/errors.h"
+#include "scenes/scenes.h"
 #include "support/random_problem.h"
 #include "support/solution.h"
 
@@ -165,6 +168,56 @@ TEST(Newton, BodyThatLargeImpulsesHoldAtRest) {
   for (int b = 1; b < 3; ++b)
     for (int j = 0; j < 3; ++j) add_row(p, {{3 * b + j, 1}, {3 * (b - 1) + j, -1}, {3 * b + (j + 1) % 3, 0.37}}, 0, bilateral);
   for (const mlcp_method method : {MLCP_METHOD_SIMPLEX, MLCP_METHOD_NEWTON}) EXPECT_EQ(fault(dense(p), solve(p, with(method))), "") << method;
+}
+
+/// Each of the first rows once more, further out by what data is rounded by: the nearer one gives way.
+TEST(Newton, RowsThatDifferByARoundingAreToldApart) {
+  for (const double gap : {1e-10, 1e-11, 1e-12, 1e-13})
+    for (const int boxes : {2, 3, 6}) {
+      mlcp::Problem p = stack(boxes, 3);
+      for (int i = 0; i < boxes; ++i) {
+        std::vector<Entry> entries;
+        for (auto t = p.jacobian.pointers[i]; t < p.jacobian.pointers[i + 1]; ++t) entries.push_back({p.jacobian.indices[t], p.jacobian.values[t]});
+        add_row(p, entries, gap * (1 + i));
+      }
+      const Solution s = solve(p, with(MLCP_METHOD_NEWTON));
+      EXPECT_EQ(fault(dense(p), s, 1e-13), "") << gap << ", " << boxes;
+      EXPECT_EQ(s.report.method, MLCP_METHOD_NEWTON) << gap << ", " << boxes;
+      EXPECT_EQ(s.report.fallbacks, 0) << gap << ", " << boxes;
+      EXPECT_LE(difference(s.v, solve(p, settings()).v), 1e-12) << gap << ", " << boxes;
+    }
+}
+
+/// Four contacts a face, of which one is too many, with coordinates that are rounded: some hundred pivots tell which of them gives way.
+TEST(Newton, WallsWhoseRowsContradictEachOtherByARounding) {
+  const scenes::Problem scene = scenes::wall(14, 14);
+  const mlcp::Problem& p = scene->problem;
+  for (const mlcp_method method : {MLCP_METHOD_NEWTON, MLCP_METHOD_AUTO}) {
+    const Solution s = solve(p, with(method));
+    EXPECT_EQ(s.report.outcome, MLCP_SOLVED) << method;
+    EXPECT_EQ(s.report.method, MLCP_METHOD_NEWTON) << method;
+    EXPECT_EQ(s.report.fallbacks, 0) << method;
+    EXPECT_LT(s.report.pivots, 200) << method;
+    EXPECT_LE(mlcp::Measure(mlcp::Memory()).run(p, nullptr, s.v, s.gamma).largest(), 1e-12) << method;
+    for (const double v : s.v) ASSERT_LE(std::abs(v), 1e-10) << "a wall at rest";
+  }
+}
+
+/// w = u uᵀγ − c: what pushes one way lets go the other way, so that impulses grow without end, and with them the terms that errors are relative to.
+TEST(Newton, ImpulsesThatGrowAreThoseOfNoRounding) {
+  for (int seed = 0; seed < 8; ++seed) {
+    Random random(seed);
+    const int rows = 40 + 2 * seed;
+    Eigen::VectorXd u(rows), b(rows);
+    for (int i = 0; i < rows; ++i) {
+      u[i] = (i % 2 ? 1 : -1) * random.integer(1, 4);
+      b[i] = -random.integer(1, 4);
+    }
+    const mlcp::Problem p = reduced_problem(u * u.transpose(), b);
+    const Solution s = solve(p, with(MLCP_METHOD_NEWTON));
+    EXPECT_EQ(infeasible_fault(dense(p), s), "") << "seed " << seed;
+    EXPECT_EQ(s.report.fallbacks, 1) << "seed " << seed;
+  }
 }
 
 }  // namespace

@@ -8,10 +8,9 @@
 namespace support {
 namespace {
 
-void expect_dense_elimination(const mlcp::Problem& problem, const mlcp::Mask* enabled) {
-  const Stage stage(problem, enabled);
-  const mlcp::Symbolic& s = stage.analysis.symbolic;
-  const Pattern L = eliminate(kkt_pattern(problem, stage.pattern().node.span()));
+void expect_dense_elimination(const mlcp::Problem& problem, const mlcp::Analysis& analysis) {
+  const mlcp::Symbolic& s = analysis.symbolic;
+  const Pattern L = eliminate(kkt_pattern(problem, analysis.pattern.node.span()));
   ASSERT_EQ(s.size(), static_cast<int>(L.size()));
   ASSERT_EQ(s.entries(), entries(L));
   for (std::size_t j = 0; j < L.size(); ++j) {
@@ -19,19 +18,35 @@ void expect_dense_elimination(const mlcp::Problem& problem, const mlcp::Mask* en
     ASSERT_EQ(rows, std::vector<int>(L[j].begin(), L[j].end())) << "column " << j;
     ASSERT_EQ(s.parent[j], rows.empty() ? -1 : rows[0]);
   }
+  // runs are as long as columns nest
+  for (int p = 0; p < s.size(); ++p) {
+    std::set<int> next;
+    if (p + 1 < s.size()) {
+      next = L[p + 1];
+      next.insert(p + 1);
+    }
+    const bool nests = p + 1 < s.size() && L[p] == next;
+    ASSERT_EQ(s.run_end[p], nests ? s.run_end[p + 1] : p + 1);
+    ASSERT_EQ(s.run_start[p], p > 0 && s.run_end[p - 1] > p ? s.run_start[p - 1] : p);
+    std::int64_t path = 0;
+    for (int q = p; q >= 0; q = s.parent[q]) path += static_cast<std::int64_t>(L[q].size());
+    ASSERT_EQ(s.path_entries[p], path);
+  }
   // islands tile the order, and their rows the ordinals; each ends at its only root
   int position = 0, row = 0;
   for (const mlcp::Island& island : s.islands) {
     ASSERT_EQ(island.first, position);
     ASSERT_EQ(island.first_row, row);
     for (; position < island.last; ++position) {
-      row += stage.pattern().is_row(position);
+      row += analysis.pattern.is_row(position);
       ASSERT_EQ(s.parent[position] < 0, position + 1 == island.last);
     }
     ASSERT_EQ(island.last_row, row);
   }
   ASSERT_EQ(position, s.size());
 }
+
+void expect_dense_elimination(const mlcp::Problem& problem, const mlcp::Mask* enabled) { expect_dense_elimination(problem, Stage(problem, enabled).analysis); }
 
 TEST(Symbolic, EqualsDenseEliminationOnRandomProblems) {
   Shape shape;
@@ -52,6 +67,21 @@ TEST(Symbolic, EqualsDenseEliminationOnChains) {
     Random random(links);
     expect_dense_elimination(random_chain(random, links, 3, 2), nullptr);
   }
+}
+
+/// Rows before the velocities that they touch; the same analysis for one problem after another.
+TEST(Symbolic, EqualsDenseEliminationOfCrowdedIslands) {
+  mlcp::Analysis analysis{mlcp::Memory()};
+  int crowded = 0;
+  for (int seed = 0; seed < 60; ++seed) {
+    Random random(seed);
+    const mlcp::Problem p = random_chain(random, random.integer(1, 12), random.integer(1, 4), random.integer(3, 9));
+    analysis.run(p, nullptr, false, {});
+    crowded += analysis.crowding.any();
+    expect_dense_elimination(p, analysis);
+    ASSERT_FALSE(HasFatalFailure()) << "seed " << seed;
+  }
+  EXPECT_GT(crowded, 20);
 }
 
 TEST(Symbolic, ChainFillIsLinear) {
