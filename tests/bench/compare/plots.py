@@ -50,7 +50,7 @@ def _save(figure, path):
 
 
 def write(folder, rows, chosen):
-    """One file a problem, and work_precision.svg with the problems in `chosen` side by side."""
+    """One file a problem, and work_precision.svg and .png with the problems in `chosen` side by side."""
     groups, colours = by_problem(rows), _colours(rows)
     for name, group in groups.items():
         figure, axes = pyplot.subplots(figsize=(6, 4.2), layout="constrained")
@@ -73,4 +73,5 @@ def write(folder, rows, chosen):
     figure.supylabel("largest error, by norm", fontsize=9)
     handles = {label: handle for axes in grid.flat for handle, label in zip(*axes.get_legend_handles_labels())}
     figure.legend(handles.values(), handles.keys(), loc="outside upper center", ncols=5, fontsize=8)
+    figure.savefig(folder / "work_precision.png", dpi=90)
     _save(figure, folder / "work_precision.svg")
