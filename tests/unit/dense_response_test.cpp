@@ -105,7 +105,9 @@ TEST(DenseResponse, RowsWithPivotsThatHaveNoInverseAreLeftOutOfTheFactor) {
     for (*s.members = 0; *s.members < s.m; ++*s.members) s.member[*s.members] = *s.members;
     mlcp::DenseResponse::factor_active(s, 1e-13);
     ASSERT_EQ(*s.members, s.m - 1);
-    if (other != 0) EXPECT_EQ(s.member[0], 1);
+    if (other != 0) {
+      EXPECT_EQ(s.member[0], 1);
+    }
   }
 }
 
