@@ -65,9 +65,10 @@ bool DenseStage::couples_rows(const Problem& problem, std::int32_t c) const {
 bool DenseStage::takes(const SolveInput& input) {
   const Settings& s = input.settings;
   if (s.method != MLCP_METHOD_AUTO || s.trace || s.impulses != MLCP_IMPULSES_ANY || s.max_iterations > 0 || s.max_work > 0) return false;
-  knew_ = !components.update(input.problem, input.enabled);
+  knew_ = !components.update(input.problem, input.enabled) && looked_;
   prepared_ &= knew_;
   if (knew_) return fits_;
+  looked_ = false;  // until all of what follows is there: memory may run out
   fits_ = true;
   crowded_ = false;
   interior_.assign(components.count(), 0);
@@ -81,6 +82,7 @@ bool DenseStage::takes(const SolveInput& input) {
     interior_[c] = 1;
     fits_ = crowded_ = true;
   }
+  looked_ = true;
   return fits_;
 }
 

@@ -39,7 +39,7 @@ class DenseStage {
   double density(const Problem& problem, std::int32_t c) const;
   bool couples_rows(const Problem& problem, std::int32_t c) const;
 
-  bool knew_ = false, fits_ = false, prepared_ = false, crowded_ = false;
+  bool knew_ = false, looked_ = false, fits_ = false, prepared_ = false, crowded_ = false;
   DenseResponse response_;
   NormalEquations normal_;
   Array<std::uint8_t> interior_;  // by component: crowded, for interior points; the others are for active sets

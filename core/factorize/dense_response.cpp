@@ -22,11 +22,12 @@ void DenseResponse::prepare(const Problem& problem, const Components& components
   const auto stays = [&](std::int32_t c) { return !left_out.empty() && left_out[c] != 0; };
   const std::int32_t n = problem.n(), count = components.count();
   const bool same_masses = mass_version_ == components.mass_version() && std::ranges::equal(left_out, left_out_);
+  if (!same_masses) mass_version_ = -1;  // until all is found anew: memory may run out
   places_.resize(count + 1);
   local_.assign(n + problem.m(), -1);
   std::int64_t reals = 0, integers = 0, velocity_blocks = 0;
   for (std::int32_t c = 0; c < count; ++c) {
-    places_[c] = {reals, integers, places_[c].slots, velocity_blocks, components.row_pointers[c]};
+    places_[c] = {reals, integers, same_masses ? places_[c].slots : 0, velocity_blocks, components.row_pointers[c]};
     if (stays(c)) continue;
     const std::int32_t own_n = components.velocity_count(c), own_m = components.row_count(c);
     const std::int32_t blocks = BlockLdl::blocks_of(own_n), panels = BlockLdl::blocks_of(own_m);
