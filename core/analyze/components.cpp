@@ -1,6 +1,7 @@
 #include "analyze/components.h"
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 #include "analyze/union_find.h"
@@ -8,12 +9,20 @@
 namespace mlcp {
 
 bool Components::covers(const Problem& problem, const Mask* enabled) const {
-  if (!known_ || static_cast<std::int32_t>(fixed_.size()) != problem.n() || static_cast<std::int32_t>(enabled_.size()) != problem.m()) return false;
+  if (!known_ || static_cast<std::int32_t>(enabled_.size()) != problem.m() || !prescribes_the_same(problem)) return false;
   for (std::int32_t i = 0; i < problem.m(); ++i)
     if (static_cast<bool>(enabled_[i]) != (!enabled || enabled->state[i] != MLCP_ROW_DISABLED)) return false;
-  for (const Body& body : problem.bodies)
-    if (body.dimension > 0 && fixed_[body.offset] != body.prescribed) return false;
   return pattern_.fits(problem);
+}
+
+/// Velocity by velocity: the bodies may be others than those of the last update, over the same patterns.
+bool Components::prescribes_the_same(const Problem& problem) const {
+  if (static_cast<std::int32_t>(fixed_.size()) != problem.n()) return false;
+  return std::ranges::all_of(problem.bodies, [&](const Body& body) {
+    // one sparse body may have all velocities of a scene
+    return body.dimension == 0 ||
+           std::memchr(fixed_.data() + body.offset, !body.prescribed, static_cast<std::size_t>(body.dimension)) == nullptr;
+  });
 }
 
 bool Components::update(const Problem& problem, const Mask* enabled) {
@@ -38,12 +47,7 @@ bool Components::update(const Problem& problem, const Mask* enabled) {
 }
 
 /// What M joins is what it was at the last update.
-bool Components::masses_stay(const Problem& problem) const {
-  if (!known_ || static_cast<std::int32_t>(fixed_.size()) != problem.n()) return false;
-  for (const Body& body : problem.bodies)
-    if (body.dimension > 0 && fixed_[body.offset] != body.prescribed) return false;
-  return pattern_.fits_mass(problem);
-}
+bool Components::masses_stay(const Problem& problem) const { return known_ && prescribes_the_same(problem) && pattern_.fits_mass(problem); }
 
 /// Most velocities of a scene may be free: what follows looks at the others alone.
 void Components::set_free_apart(const Problem& problem) {

@@ -35,6 +35,7 @@ class Components {
   bool covers(const Problem& problem, const Mask* enabled) const;
   void set_free_apart(const Problem& problem);
   bool masses_stay(const Problem& problem) const;
+  bool prescribes_the_same(const Problem& problem) const;
   void join_masses(const Problem& problem);
   void join_rows(const Problem& problem);
   void sort(const Problem& problem);

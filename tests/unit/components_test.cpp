@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "assemble/bodies.h"
@@ -108,6 +109,39 @@ TEST(Components, OfOneStepAfterTheOtherAreThoseFoundAfresh) {
     }
   }
   EXPECT_GT(kept, 100);
+}
+
+/// Other bodies over the same patterns: the first velocity of each is as free as it was, another one is not.
+TEST(Components, OtherBodiesOverTheSamePatternsAreNotKnown) {
+  for (const bool coupled : {false, true}) {
+    const double values[] = {2, 1, 1, 2, 2, 1, 1, 2};
+    const std::int32_t pointers[] = {0, 2, 4, 6, 8}, rows[] = {0, 1, 0, 1, 2, 3, 2, 3};
+    mlcp::Problem two = empty_problem(), one = empty_problem();
+    if (coupled) {
+      for (int i = 0; i < 2; ++i) add_sparse_body(two, (Eigen::Matrix2d() << 2, 1, 1, 2).finished());
+      prescribe(two, 1, {1, 1});
+      mlcp::body_add_sparse(one, 4, pointers, rows, values, MLCP_FULL);
+    } else {
+      for (int i = 0; i < 2; ++i) add_body(two, 1, 1);
+      prescribe(two, 1, {1});
+      const std::int32_t ends[] = {0, 1, 2}, diagonal[] = {0, 1};
+      const double ones[] = {1, 1};
+      mlcp::body_add_sparse(one, 2, ends, diagonal, ones, MLCP_FULL);
+    }
+    const int last = one.n() - 1;
+    for (mlcp::Problem* p : {&two, &one}) add_row(*p, {{0, 1}, {last, 1}});
+    ASSERT_TRUE(std::ranges::equal(two.mass.indices, one.mass.indices) && std::ranges::equal(two.mass.pointers, one.mass.pointers));
+    for (const bool other_rows : {false, true}) {
+      mlcp::Components c{mlcp::Memory()}, fresh{mlcp::Memory()};
+      c.update(two, nullptr);
+      if (other_rows) add_row(one, {{0, 1}});
+      EXPECT_TRUE(c.update(one, nullptr));
+      fresh.update(one, nullptr);
+      EXPECT_EQ(list(c.velocities), list(fresh.velocities));
+      EXPECT_EQ(list(c.velocity_pointers), list(fresh.velocity_pointers));
+      EXPECT_EQ(list(c.free_velocity), list(fresh.free_velocity));
+    }
+  }
 }
 
 TEST(Components, AreTheIslandsOfTheSparseFactor) {
