@@ -4,11 +4,16 @@ namespace mlcp {
 
 /// The entries of the last row, from `begin` on: a row that comes before its velocities is a column of L as it stands.
 void KktPattern::sort_by_column(std::int32_t begin) {
-  for (auto t = begin + 1; t < static_cast<std::int32_t>(row_columns.size()); ++t)
-    for (auto s = t; s > begin && row_columns[s - 1] > row_columns[s]; --s) {
-      std::swap(row_columns[s - 1], row_columns[s]);
-      std::swap(row_source[s - 1], row_source[s]);
+  for (auto t = begin + 1; t < static_cast<std::int32_t>(row_columns.size()); ++t) {
+    const std::int32_t column = row_columns[t], source = row_source[t];
+    std::int32_t s = t;
+    for (; s > begin && row_columns[s - 1] > column; --s) {
+      row_columns[s] = row_columns[s - 1];
+      row_source[s] = row_source[s - 1];
     }
+    row_columns[s] = column;
+    row_source[s] = source;
+  }
 }
 
 void KktPattern::build(const Problem& problem, std::span<const std::int32_t> order) {

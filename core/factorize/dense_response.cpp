@@ -3,15 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <memory>
 
 #include "factorize/dot.h"
 
 namespace mlcp {
 namespace {
 
+/// A line of the cache, in doubles: panels and blocks begin with one, and so does what kernels read by eights.
+constexpr std::int64_t line = 8;
+
 std::int64_t real_count(std::int64_t m, std::int64_t blocks, std::int64_t panels) {
-  return BlockLdl::reals(blocks) + 12 * blocks + 16 * blocks * panels + 32 * panels * panels + BlockLdl::reals(panels) + 4 * panels + 7 * m +
-         4 * (blocks + panels) + 16 * blocks;
+  const std::int64_t by_lines = BlockLdl::reals(blocks) + 16 * blocks * panels + 32 * panels * panels + BlockLdl::reals(panels) + 16 * blocks;
+  return by_lines + (12 * blocks + 4 * panels + 7 * m + 4 * (blocks + panels) + line - 1) / line * line;
 }
 std::int64_t integer_count(std::int64_t m, std::int64_t panels) { return 3 * panels + m; }
 
@@ -37,7 +41,7 @@ void DenseResponse::prepare(const Problem& problem, const Components& components
     for (std::int32_t p = 0; p < own_n; ++p) local_[components.velocities[components.velocity_pointers[c] + p]] = own_n - 1 - p;
     for (std::int32_t i = 0; i < own_m; ++i) local_[n + components.rows[components.row_pointers[c] + i]] = i;
   }
-  reals_.resize(reals);
+  reals_.resize(reals + line - 1);
   integers_.resize(integers);
   states_.resize(components.rows.size());
   members_.resize(count);
@@ -63,7 +67,9 @@ void DenseResponse::prepare(const Problem& problem, const Components& components
 /// Where the parts of component c are.
 DenseIsland DenseResponse::lay_out(std::int32_t c) {
   const Place& place = places_[c];
-  double* real = reals_.data() + place.reals;
+  void* begin = reals_.data();
+  std::size_t room = reals_.size() * sizeof(double);
+  double* real = static_cast<double*>(std::align(line * sizeof(double), 0, begin, room)) + place.reals;
   std::int32_t* integer = integers_.data() + place.integers;
   const auto take = [](auto*& from, std::int64_t count) {
     const auto part = from;
@@ -79,15 +85,14 @@ DenseIsland DenseResponse::lay_out(std::int32_t c) {
   s.row = components_->rows.data() + components_->row_pointers[c];
   const std::int64_t blocks = s.blocks = BlockLdl::blocks_of(s.n), panels = s.panels = BlockLdl::blocks_of(s.m);
   s.mass.lower = take(real, BlockLdl::reals(blocks));
-  for (double** part : {&s.mass.inverse, &s.reach, &s.k}) *part = take(real, 4 * blocks);
   s.y = take(real, 16 * blocks * panels);
-  s.a = take(real, 16 * panels * panels);
+  s.scaled = take(real, 16 * blocks);
   s.active.lower = take(real, BlockLdl::reals(panels));
+  for (double** part : {&s.a, &s.tableau}) *part = take(real, 16 * panels * panels);
+  for (double** part : {&s.mass.inverse, &s.reach, &s.k}) *part = take(real, 4 * blocks);
   s.active.inverse = take(real, 4 * panels);
   for (double** part : {&s.b, &s.size, &s.lo, &s.hi, &s.gamma, &s.w, &s.scale}) *part = take(real, m);
   s.x = take(real, 4 * (blocks + panels));
-  s.scaled = take(real, 16 * blocks);
-  s.tableau = take(real, 16 * panels * panels);
   s.mass.first = first_.data() + place.blocks;
   for (std::int32_t** part : {&s.begin, &s.end, &s.active.first}) *part = take(integer, panels);
   s.member = take(integer, m);

@@ -71,6 +71,7 @@ const Kernels& kernels_for_this_cpu();
 extern const Kernels portable_kernels;
 #if defined(__x86_64__)
 extern const Kernels avx2_kernels;
+extern const Kernels avx512_kernels;  ///< where the compiler has AVX-512
 #endif
 
 }  // namespace mlcp

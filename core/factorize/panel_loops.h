@@ -13,11 +13,41 @@ typedef long long Bits __attribute__((vector_size(32), aligned(8)));
 inline void load_block(const double* from, Lanes (&s)[4]) {
   for (int r = 0; r < 4; ++r) s[r] = *reinterpret_cast<const Lanes*>(from + 4 * r);
 }
+#if defined(__AVX512F__)
+typedef double Eight __attribute__((vector_size(64), aligned(8), may_alias));
+typedef long long EightBits __attribute__((vector_size(64), aligned(8)));
+
+inline Eight joined(const Lanes& a, const Lanes& b) { return Eight{a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]}; }
+/// By eights: subtract_product() reads them so, and a load waits for two stores that each have a half of it.
+inline void store_block(const Lanes (&s)[4], double* to) {
+  *reinterpret_cast<Eight*>(to) = joined(s[0], s[1]);
+  *reinterpret_cast<Eight*>(to + 8) = joined(s[2], s[3]);
+}
+#else
 inline void store_block(const Lanes (&s)[4], double* to) {
   for (int r = 0; r < 4; ++r) *reinterpret_cast<Lanes*>(to + 4 * r) = s[r];
 }
+#endif
 
 /// s(r, :) −= Σ_q left(q, r) right(q, :). count: a multiple of two. Even and odd q are summed apart, or each sum would wait for the one before.
+#if defined(__AVX512F__)
+/// Sums of even q in the first half of a register, of odd q in the second: the same operations as below.
+inline void subtract_product(std::int64_t count, const double* left, const double* right, Lanes (&s)[4]) {
+  constexpr long long sign = static_cast<long long>(1ULL << 63);
+  const EightBits first_half{sign, sign, sign, sign, 0, 0, 0, 0};
+  Eight s0 = joined(s[0], Lanes{}), s1 = joined(s[1], Lanes{}), s2 = joined(s[2], Lanes{}), s3 = joined(s[3], Lanes{});
+  for (const double* const end = left + 4 * count; left != end; left += 8, right += 8) {
+    const Eight x = *reinterpret_cast<const Eight*>(right);
+    const Eight f = reinterpret_cast<Eight>(reinterpret_cast<EightBits>(*reinterpret_cast<const Eight*>(left)) ^ first_half);
+    s0 += __builtin_shuffle(f, EightBits{0, 0, 0, 0, 4, 4, 4, 4}) * x;
+    s1 += __builtin_shuffle(f, EightBits{1, 1, 1, 1, 5, 5, 5, 5}) * x;
+    s2 += __builtin_shuffle(f, EightBits{2, 2, 2, 2, 6, 6, 6, 6}) * x;
+    s3 += __builtin_shuffle(f, EightBits{3, 3, 3, 3, 7, 7, 7, 7}) * x;
+  }
+  const auto difference = [](const Eight& a) { return Lanes{a[0], a[1], a[2], a[3]} - Lanes{a[4], a[5], a[6], a[7]}; };
+  s[0] = difference(s0), s[1] = difference(s1), s[2] = difference(s2), s[3] = difference(s3);
+}
+#else
 inline void subtract_product(std::int64_t count, const double* left, const double* right, Lanes (&s)[4]) {
   Lanes s0 = s[0], s1 = s[1], s2 = s[2], s3 = s[3], t0{}, t1{}, t2{}, t3{};
   for (const double* const end = left + 4 * count; left != end; left += 8, right += 8) {
@@ -33,6 +63,7 @@ inline void subtract_product(std::int64_t count, const double* left, const doubl
   }
   s[0] = s0 - t0, s[1] = s1 - t1, s[2] = s2 - t2, s[3] = s3 - t3;
 }
+#endif
 
 /// BlockLdl::block and std::max, local to this file.
 inline double* block_of(const BlockLdl& f, std::int64_t b) { return f.lower + 8 * b * (b + 1); }

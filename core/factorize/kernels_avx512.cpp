@@ -1,0 +1,15 @@
+// Compiled with AVX-512 (core/CMakeLists.txt); called on CPUs that have it.
+#include "factorize/kernels.h"
+
+#if defined(__AVX512F__)
+#include "factorize/kernel_loops.h"
+#include "factorize/panel_loops.h"
+
+namespace mlcp {
+
+const Kernels avx512_kernels{forward,       combine,        products,       backward,    rank_one,      panel_forward, block_eliminate,
+                             block_forward, block_backward, panel_subtract, panel_scale, panel_product, tiles_square,
+                             tiles_times, tiles_transposed, sweep};
+
+}  // namespace mlcp
+#endif
