@@ -5,8 +5,6 @@
 #include <cstring>
 #include <memory>
 
-#include "factorize/dot.h"
-
 namespace mlcp {
 namespace {
 
@@ -15,9 +13,9 @@ constexpr std::int64_t line = 8;
 
 std::int64_t real_count(std::int64_t m, std::int64_t blocks, std::int64_t panels) {
   const std::int64_t by_lines = BlockLdl::reals(blocks) + 16 * blocks * panels + 32 * panels * panels + BlockLdl::reals(panels) + 16 * blocks;
-  return by_lines + (12 * blocks + 4 * panels + 7 * m + 4 * (blocks + panels) + line - 1) / line * line;
+  return by_lines + (12 * blocks + 12 * panels + 5 * m + 4 * (blocks + panels) + line - 1) / line * line;
 }
-std::int64_t integer_count(std::int64_t m, std::int64_t panels) { return 3 * panels + m; }
+std::int64_t integer_count(std::int64_t m, std::int64_t panels) { return 4 * panels + 2 * m; }
 
 }  // namespace
 
@@ -91,11 +89,12 @@ DenseIsland DenseResponse::lay_out(std::int32_t c) {
   for (double** part : {&s.a, &s.tableau}) *part = take(real, 16 * panels * panels);
   for (double** part : {&s.mass.inverse, &s.reach, &s.k}) *part = take(real, 4 * blocks);
   s.active.inverse = take(real, 4 * panels);
-  for (double** part : {&s.b, &s.size, &s.lo, &s.hi, &s.gamma, &s.w, &s.scale}) *part = take(real, m);
+  for (double** part : {&s.w, &s.scale}) *part = take(real, 4 * panels);
+  for (double** part : {&s.b, &s.size, &s.lo, &s.hi, &s.gamma}) *part = take(real, m);
   s.x = take(real, 4 * (blocks + panels));
   s.mass.first = first_.data() + place.blocks;
-  for (std::int32_t** part : {&s.begin, &s.end, &s.active.first}) *part = take(integer, panels);
-  s.member = take(integer, m);
+  for (std::int32_t** part : {&s.begin, &s.end, &s.active.first, &s.fours}) *part = take(integer, panels);
+  for (std::int32_t** part : {&s.member, &s.pushing}) *part = take(integer, m);
   s.state = states_.data() + place.rows;
   return s;
 }
@@ -260,11 +259,24 @@ void DenseResponse::solve_active(DenseIsland& s) {
   for (std::int32_t t = 0; t < *s.members; ++t) s.gamma[s.member[t]] = x[t];
 }
 
-double DenseResponse::slack(const DenseIsland& s, std::int32_t i, double& terms) {
-  double pushed, pushes;
-  dot_and_size(s.row_of_a(i), s.gamma, s.m, pushed, pushes);
-  terms = s.size[i] + std::abs(s.b[i]) + pushes;
-  return s.b[i] + pushed;
+void DenseResponse::slacks(const DenseIsland& s, std::uint8_t known) {
+  List columns{0, s.pushing}, fours{0, s.fours};
+  for (std::int32_t i = 0, b = 0; b < s.panels; ++b) {
+    bool asked = false;
+    for (const std::int32_t end = std::min(i + 4, s.m); i < end; ++i) {
+      s.pushing[columns.count] = i;
+      columns.count += s.gamma[i] != 0;
+      asked |= s.state[i] != known;
+    }
+    s.fours[fours.count] = b;
+    fours.count += asked;
+  }
+  s.kernels->column_products(fours, columns, 4 * s.panels, s.a, s.gamma, s.w, s.scale);
+  for (std::int32_t k = 0; k < fours.count; ++k)
+    for (std::int32_t i = 4 * s.fours[k], end = std::min(i + 4, s.m); i < end; ++i) {
+      s.w[i] += s.b[i];
+      s.scale[i] += s.size[i] + std::abs(s.b[i]);
+    }
 }
 
 double DenseResponse::schur(const DenseIsland& s, std::int32_t i) {

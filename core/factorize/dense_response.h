@@ -27,10 +27,11 @@ struct DenseIsland {
   BlockLdl active;                     ///< of A on the rows `member`
   std::int32_t* member;
   std::int32_t* members;                ///< how many
+  std::int32_t *pushing, *fours;       ///< m, panels: scratch, rows with an impulse, fours of rows to look at
   double* gamma;
   std::uint8_t* state;                 ///< m: where each row stands, for the method
   double* tableau;                     ///< 4 panels rows of 4 panels: DenseTableau
-  double *w, *scale;                   ///< m: slacks, and their terms by magnitude, for the method
+  double *w, *scale;                   ///< 4 panels: slacks, and their terms by magnitude, for the method
   double* x;                           ///< 4 blocks + 4 panels: scratch
   double* scaled;                      ///< 16 blocks: D⁻¹ times a panel
   const Kernels* kernels;
@@ -63,8 +64,8 @@ class DenseResponse {
   static void factor_active(DenseIsland& island, double drop);
   /// γ of the members, 0 before: w = 0 there with the impulses of the rows that rest.
   static void solve_active(DenseIsland& island);
-  /// wᵢ of the impulses; terms: their magnitude.
-  static double slack(const DenseIsland& island, std::int32_t i, double& terms);
+  /// w of the impulses, and scale, the magnitude of its terms, on every four rows of which one is in another state than `known`.
+  static void slacks(const DenseIsland& island, std::uint8_t known);
   /// v of the impulses, into x.
   static void velocities(const DenseIsland& island);
   /// Aᵢᵢ less what the members take from it, for a row that is none.

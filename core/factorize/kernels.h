@@ -24,6 +24,23 @@ struct FactorArrays {
   double* gathered;              ///< room for a stretch from its first column on
 };
 
+/// Not std::span: nothing inline from elsewhere may be compiled with AVX.
+struct List {
+  std::int32_t count;
+  const std::int32_t* entries;
+};
+
+/// A dense symmetric A on some rows with its impulses, for a sweep of projected Gauss-Seidel. stride: of A's rows, `size` rounded up to four; what fills them is 0.
+struct DenseSweep {
+  enum State : std::uint8_t { at_lower, between, at_upper };
+  std::int32_t size;
+  std::int64_t stride;
+  const double *a, *inverse;     ///< inverse: 1/aᵢᵢ, 0 for rows to be left out
+  const double *lo, *hi;
+  double *gamma, *w;             ///< w: stride entries, A γ + b
+  std::uint8_t* state;
+};
+
 /// The hot loops of sparse factors and of small dense ones, once for every x86-64 CPU and once for those with AVX2. Sums go into four interleaved parts in both, products are
 /// not fused: both give the same bits. Each returns the entries that it touched.
 struct Kernels {
@@ -61,6 +78,10 @@ struct Kernels {
   void (*tiles_square)(const BlockLdl&, std::int32_t count, const std::int32_t* block, const double* tiles, const double* weight);
   void (*tiles_times)(std::int32_t count, const std::int32_t* block, const double* tiles, const double* x, double* y);
   void (*tiles_transposed)(std::int32_t count, const std::int32_t* block, const double* tiles, const double* y, double* x);
+  /// One sweep by fours of rows, whose impulses all slacks follow at once. after: w goes with γ.  returns whether a row changes its state.
+  bool (*impulse_sweep)(const DenseSweep&);
+  /// sum := Σ_j a(:,j) x_j, size := Σ_j |a(:,j) x_j| on fours of entries, over columns j of `stride` entries in the order of their list.
+  void (*column_products)(const List& fours, const List& columns, std::int64_t stride, const double* a, const double* x, double* sum, double* size);
   /// A principal pivot on p of the symmetric tableau T, as Tableau::sweep: the lower triangle, in rows of `stride` entries, a multiple of four. sign: 1
   /// takes p in, −1 out. column: room for `stride` entries.     cost: size² / 2
   void (*sweep)(std::int64_t size, std::int64_t stride, double* t, std::int64_t p, double sign, double* column);

@@ -18,7 +18,7 @@ typedef double Eight __attribute__((vector_size(64), aligned(8), may_alias));
 typedef long long EightBits __attribute__((vector_size(64), aligned(8)));
 
 inline Eight joined(const Lanes& a, const Lanes& b) { return Eight{a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]}; }
-/// By eights: subtract_product() reads them so, and a load waits for two stores that each have a half of it.
+/// By eights: product() reads them so, and a load waits for two stores that each have a half of it.
 inline void store_block(const Lanes (&s)[4], double* to) {
   *reinterpret_cast<Eight*>(to) = joined(s[0], s[1]);
   *reinterpret_cast<Eight*>(to + 8) = joined(s[2], s[3]);
@@ -29,39 +29,36 @@ inline void store_block(const Lanes (&s)[4], double* to) {
 }
 #endif
 
-/// s(r, :) −= Σ_q left(q, r) right(q, :). count: a multiple of two. Even and odd q are summed apart, or each sum would wait for the one before.
+/// sum(r, :) := Σ_q left(q, r) right(q, :). count: a multiple of two. Even and odd q are summed apart, or each sum would wait for the one before.
 #if defined(__AVX512F__)
 /// Sums of even q in the first half of a register, of odd q in the second: the same operations as below.
-inline void subtract_product(std::int64_t count, const double* left, const double* right, Lanes (&s)[4]) {
-  constexpr long long sign = static_cast<long long>(1ULL << 63);
-  const EightBits first_half{sign, sign, sign, sign, 0, 0, 0, 0};
-  Eight s0 = joined(s[0], Lanes{}), s1 = joined(s[1], Lanes{}), s2 = joined(s[2], Lanes{}), s3 = joined(s[3], Lanes{});
+inline void product(std::int64_t count, const double* left, const double* right, Lanes (&sum)[4]) {
+  Eight s0{}, s1{}, s2{}, s3{};
   for (const double* const end = left + 4 * count; left != end; left += 8, right += 8) {
-    const Eight x = *reinterpret_cast<const Eight*>(right);
-    const Eight f = reinterpret_cast<Eight>(reinterpret_cast<EightBits>(*reinterpret_cast<const Eight*>(left)) ^ first_half);
+    const Eight f = *reinterpret_cast<const Eight*>(left), x = *reinterpret_cast<const Eight*>(right);
     s0 += __builtin_shuffle(f, EightBits{0, 0, 0, 0, 4, 4, 4, 4}) * x;
     s1 += __builtin_shuffle(f, EightBits{1, 1, 1, 1, 5, 5, 5, 5}) * x;
     s2 += __builtin_shuffle(f, EightBits{2, 2, 2, 2, 6, 6, 6, 6}) * x;
     s3 += __builtin_shuffle(f, EightBits{3, 3, 3, 3, 7, 7, 7, 7}) * x;
   }
-  const auto difference = [](const Eight& a) { return Lanes{a[0], a[1], a[2], a[3]} - Lanes{a[4], a[5], a[6], a[7]}; };
-  s[0] = difference(s0), s[1] = difference(s1), s[2] = difference(s2), s[3] = difference(s3);
+  const auto both = [](const Eight& a) { return Lanes{a[0], a[1], a[2], a[3]} + Lanes{a[4], a[5], a[6], a[7]}; };
+  sum[0] = both(s0), sum[1] = both(s1), sum[2] = both(s2), sum[3] = both(s3);
 }
 #else
-inline void subtract_product(std::int64_t count, const double* left, const double* right, Lanes (&s)[4]) {
-  Lanes s0 = s[0], s1 = s[1], s2 = s[2], s3 = s[3], t0{}, t1{}, t2{}, t3{};
+inline void product(std::int64_t count, const double* left, const double* right, Lanes (&sum)[4]) {
+  Lanes s0{}, s1{}, s2{}, s3{}, t0{}, t1{}, t2{}, t3{};
   for (const double* const end = left + 4 * count; left != end; left += 8, right += 8) {
     const Lanes x = *reinterpret_cast<const Lanes*>(right), y = *reinterpret_cast<const Lanes*>(right + 4);
-    s0 -= left[0] * x;
-    s1 -= left[1] * x;
-    s2 -= left[2] * x;
-    s3 -= left[3] * x;
+    s0 += left[0] * x;
+    s1 += left[1] * x;
+    s2 += left[2] * x;
+    s3 += left[3] * x;
     t0 += left[4] * y;
     t1 += left[5] * y;
     t2 += left[6] * y;
     t3 += left[7] * y;
   }
-  s[0] = s0 - t0, s[1] = s1 - t1, s[2] = s2 - t2, s[3] = s3 - t3;
+  sum[0] = s0 + t0, sum[1] = s1 + t1, sum[2] = s2 + t2, sum[3] = s3 + t3;
 }
 #endif
 
@@ -76,7 +73,11 @@ std::int32_t panel_forward(const BlockLdl& f, std::int32_t begin, std::int32_t b
     const double *l = block_of(f, b), *own = l + 16 * std::int64_t{b};
     Lanes s[4];
     load_block(y + 16 * std::int64_t{b}, s);
-    if (from < end) subtract_product(4 * (end - from), l + 16 * std::int64_t{from}, y + 16 * std::int64_t{from}, s);
+    if (from < end) {
+      Lanes sum[4];
+      product(4 * (end - from), l + 16 * std::int64_t{from}, y + 16 * std::int64_t{from}, sum);
+      for (int r = 0; r < 4; ++r) s[r] -= sum[r];
+    }
     s[1] -= own[1] * s[0];
     s[2] -= own[2] * s[0];
     s[3] -= own[3] * s[0];
@@ -169,9 +170,8 @@ void panel_scale(std::int64_t count, const double* y, const double* inverse, con
 }
 
 void panel_product(std::int64_t count, const double* x, const double* y, std::int64_t stride, double* tile, double* mirror) {
-  Lanes s[4] = {};
-  subtract_product(count, x, y, s);
-  for (int r = 0; r < 4; ++r) s[r] = -s[r];
+  Lanes s[4];
+  product(count, x, y, s);
   for (int r = 0; r < 4; ++r) *reinterpret_cast<Lanes*>(mirror + r * stride) = Lanes{s[0][r], s[1][r], s[2][r], s[3][r]};
   for (int r = 0; r < 4; ++r) *reinterpret_cast<Lanes*>(tile + r * stride) = s[r];
 }
@@ -209,6 +209,78 @@ void tiles_transposed(std::int32_t count, const std::int32_t* block, const doubl
     Lanes s[4];
     load_block(tiles, s);
     *reinterpret_cast<Lanes*>(x + 4 * std::int64_t{block[t]}) += (s[0] * y[0] + s[1] * y[1]) + (s[2] * y[2] + s[3] * y[3]);
+  }
+}
+
+bool impulse_sweep(const DenseSweep& s) {
+  bool changed = false;
+  for (std::int32_t first = 0; first < s.size; first += 4) {
+    const double* const a = s.a + s.stride * first;  // row q: a + stride q
+    const std::int32_t count = s.size - first < 4 ? s.size - first : 4;
+    double by[4] = {};
+    for (std::int32_t q = 0; q < count; ++q) {
+      const std::int32_t i = first + q;
+      double w = s.w[i];
+      for (std::int32_t p = 0; p < q; ++p) w += a[s.stride * p + i] * by[p];
+      const double before = s.gamma[i], free = before - w * s.inverse[i], lo = s.lo[i], hi = s.hi[i];
+      const bool low = free <= lo, high = free >= hi, stays = s.inverse[i] == 0;
+      const double gamma = stays ? before : low ? lo : high ? hi : free;
+      const int moved = low ? DenseSweep::at_lower : high ? DenseSweep::at_upper : DenseSweep::between;
+      const auto state = static_cast<std::uint8_t>(stays ? s.state[i] : moved);
+      changed |= state != s.state[i];
+      s.state[i] = state;
+      s.gamma[i] = gamma;
+      by[q] = gamma - before;
+    }
+    if (by[0] == 0 && by[1] == 0 && by[2] == 0 && by[3] == 0) continue;
+    std::int64_t j = 0;
+#if defined(__AVX512F__)
+    for (; j + 8 <= s.stride; j += 8) {
+      Eight w = *reinterpret_cast<const Eight*>(s.w + j);
+      for (int q = 0; q < 4; ++q) w += *reinterpret_cast<const Eight*>(a + s.stride * q + j) * by[q];
+      *reinterpret_cast<Eight*>(s.w + j) = w;
+    }
+#endif
+    for (; j < s.stride; j += 4) {
+      Lanes w = *reinterpret_cast<const Lanes*>(s.w + j);
+      for (int q = 0; q < 4; ++q) w += *reinterpret_cast<const Lanes*>(a + s.stride * q + j) * by[q];
+      *reinterpret_cast<Lanes*>(s.w + j) = w;
+    }
+  }
+  return changed;
+}
+
+/// column_products() on V fours, whose sums do not wait for each other.
+template <int V>
+inline void add_products(const std::int32_t* fours, std::int32_t count, const std::int32_t* columns, std::int64_t stride, const double* a, const double* x,
+                         double* sum, double* size) {
+  constexpr long long magnitude = 0x7fffffffffffffff;
+  const Bits no_sign{magnitude, magnitude, magnitude, magnitude};
+  Lanes s[V] = {}, sizes[V] = {};
+  for (std::int32_t k = 0; k < count; ++k) {
+    const double* const column = a + stride * columns[k];
+    const double f = x[columns[k]];
+#pragma GCC unroll 4
+    for (int v = 0; v < V; ++v) {
+      const Lanes term = *reinterpret_cast<const Lanes*>(column + 4 * fours[v]) * f;
+      s[v] += term;
+      sizes[v] += reinterpret_cast<Lanes>(reinterpret_cast<Bits>(term) & no_sign);
+    }
+  }
+#pragma GCC unroll 4
+  for (int v = 0; v < V; ++v) {
+    *reinterpret_cast<Lanes*>(sum + 4 * fours[v]) = s[v];
+    *reinterpret_cast<Lanes*>(size + 4 * fours[v]) = sizes[v];
+  }
+}
+
+void column_products(const List& fours, const List& columns, std::int64_t stride, const double* a, const double* x, double* sum, double* size) {
+  std::int32_t b = 0;
+  for (; b + 4 <= fours.count; b += 4) add_products<4>(fours.entries + b, columns.count, columns.entries, stride, a, x, sum, size);
+  switch (fours.count - b) {
+    case 3: add_products<3>(fours.entries + b, columns.count, columns.entries, stride, a, x, sum, size); break;
+    case 2: add_products<2>(fours.entries + b, columns.count, columns.entries, stride, a, x, sum, size); break;
+    case 1: add_products<1>(fours.entries + b, columns.count, columns.entries, stride, a, x, sum, size); break;
   }
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "factorize/dot.h"
 #include "solve/basis.h"
 #include "solve/dense_simplex.h"
 
@@ -23,6 +22,8 @@ constexpr int most_sweeps = 8;
 constexpr int most_sweeps_on = 2;
 /// More active rows are factored sooner the sparse way, whose cost is not that of a cube; where there are velocities, A has cost too much by then.
 constexpr std::int32_t most_active = 160;
+
+static_assert(int{DenseSweep::at_lower} == ActiveSet::at_lower && int{DenseSweep::between} == ActiveSet::active && int{DenseSweep::at_upper} == ActiveSet::at_upper);
 
 }  // namespace
 
@@ -43,29 +44,16 @@ bool DenseNewton::too_many() const { return s_.n == 0 && s_.m > most_active && s
 
 /// Projected Gauss-Seidel on A. The slacks follow every impulse by its column of A, which is its row: no sum has to wait for the impulse before.
 void DenseNewton::guess(int most) {
-  double* const w = s_.x_rows();
-  const std::int32_t stride = 4 * s_.panels;
-  const auto push = [&](std::int32_t i, double by) {
-    const double* const a = s_.row_of_a(i);
-    for (std::int32_t j = 0; j < stride; ++j) w[j] += a[j] * by;
-  };
-  std::copy(s_.b, s_.b + s_.m, w);
-  std::fill(w + s_.m, w + stride, 0.0);
-  for (std::int32_t i = 0; i < s_.m; ++i) {
-    if (s_.gamma[i] != 0) push(i, s_.gamma[i]);
-    s_.w[i] = s_.response(i, i) >= std::numeric_limits<double>::min() ? 1 / s_.response(i, i) : 0;
-  }
-  for (int sweep = 0; sweep < most; ++sweep) {
-    bool changed = false;
-    for (std::int32_t i = 0; i < s_.m; ++i) {
-      if (s_.w[i] == 0) continue;
-      const double before = s_.gamma[i], gamma = before - w[i] * s_.w[i];
-      const auto to = gamma <= s_.lo[i] ? ActiveSet::at_lower : gamma >= s_.hi[i] ? ActiveSet::at_upper : ActiveSet::active;
-      changed |= s_.state[i] != to;
-      s_.state[i] = to;
-      s_.gamma[i] = std::clamp(gamma, s_.lo[i], s_.hi[i]);
-      if (s_.gamma[i] != before) push(i, s_.gamma[i] - before);
-    }
+  if (std::all_of(s_.gamma, s_.gamma + s_.m, [](double g) { return g == 0; }))
+    std::copy(s_.b, s_.b + s_.m, s_.w);
+  else
+    DenseResponse::slacks(s_, ActiveSet::disabled);  // of all rows
+  std::fill(s_.w + s_.m, s_.w + 4 * s_.panels, 0.0);
+  double* const inverse = s_.x_rows();
+  for (std::int32_t i = 0; i < s_.m; ++i) inverse[i] = s_.response(i, i) >= std::numeric_limits<double>::min() ? 1 / s_.response(i, i) : 0;
+  const DenseSweep sweep{s_.m, 4 * s_.panels, s_.a, inverse, s_.lo, s_.hi, s_.gamma, s_.w, s_.state};
+  for (int count = 0; count < most; ++count) {
+    const bool changed = s_.kernels->impulse_sweep(sweep);
     counts_.work += static_cast<std::int64_t>(s_.m) * s_.m;
     if (!changed || too_many()) break;
   }
@@ -74,22 +62,17 @@ void DenseNewton::guess(int most) {
 /// Rows whose state does not fit change it.  returns how many.
 std::int32_t DenseNewton::flip() {
   std::int32_t flips = 0;
-  // slacks first: they are those of the impulses as they are
-  for (std::int32_t i = 0; i < s_.m; ++i) {
-    if (s_.state[i] == ActiveSet::active) continue;
-    double size;
-    const double w = DenseResponse::slack(s_, i, size);
-    // what no impulse can change is for the measurement to judge
-    const double zero = s_.lo[i] == s_.hi[i] || s_.response(i, i) == 0 ? infinity : zero_ * size;
-    const bool wrong = s_.state[i] == ActiveSet::at_lower ? w < -zero : s_.state[i] == ActiveSet::at_upper ? w > zero : std::abs(w) > zero;
-    s_.x[i] = wrong;
-  }
+  DenseResponse::slacks(s_, ActiveSet::active);  // first: they are those of the impulses as they are
   for (std::int32_t i = 0; i < s_.m; ++i) {
     if (s_.state[i] == ActiveSet::active) {
       if (s_.gamma[i] >= s_.lo[i] && s_.gamma[i] <= s_.hi[i]) continue;
       rest(i, s_.gamma[i] < s_.lo[i] ? ActiveSet::at_lower : ActiveSet::at_upper);
     } else {
-      if (s_.x[i] == 0) continue;
+      const double w = s_.w[i];
+      // what no impulse can change is for the measurement to judge
+      const double zero = s_.lo[i] == s_.hi[i] || s_.response(i, i) == 0 ? infinity : zero_ * s_.scale[i];
+      const bool wrong = s_.state[i] == ActiveSet::at_lower ? w < -zero : s_.state[i] == ActiveSet::at_upper ? w > zero : std::abs(w) > zero;
+      if (!wrong) continue;
       s_.state[i] = ActiveSet::active;
     }
     ++flips;

@@ -71,10 +71,9 @@ bool DenseSimplex::drop_beyond_bounds() {
 }
 
 void DenseSimplex::find_slacks() {
-  for (std::int32_t i = 0; i < s_.m; ++i) {
-    const double w = DenseResponse::slack(s_, i, s_.scale[i]);
-    s_.w[i] = is_in(i) ? 0 : w;
-  }
+  DenseResponse::slacks(s_, ActiveSet::active);
+  for (std::int32_t i = 0; i < s_.m; ++i)
+    if (is_in(i)) s_.w[i] = 0;
   counts_.work += static_cast<std::int64_t>(s_.m) * s_.m;
 }
 

@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include "factorize/dot.h"
 #include "support/dense.h"
 #include "support/random_problem.h"
 
@@ -19,11 +18,6 @@ struct Loaded {
     response.prepare(p, components);
   }
 };
-
-TEST(Dot, AddsEveryProductOnce) {
-  const double a[] = {1, 2, 4, 8, 16, 32, 64, 128, 256}, ones[] = {1, 1, 1, 1, 1, 1, 1, 1, 1};
-  for (int count = 0; count <= 9; ++count) EXPECT_EQ(mlcp::dot(a, ones, count), (1 << count) - 1);
-}
 
 TEST(DenseResponse, IsTheReducedProblemOfEachComponent) {
   for (int seed = 0; seed < 200; ++seed) {
