@@ -1,5 +1,7 @@
 #include "assemble/compliance.h"
 
+#include <algorithm>
+
 #include "assemble/validate.h"
 
 namespace mlcp {
@@ -7,6 +9,10 @@ namespace mlcp {
 void set_compliance_matrix(Problem& problem, const SymmetricInput& matrix) {
   check_length("count", matrix.size, problem.m());
   EditWorkspace& work = problem.work;
+  if (has_values_of(problem.compliance_view(), matrix, work.index)) {
+    std::copy_n(matrix.values, problem.compliance.values.size(), problem.compliance.values.data());
+    return;
+  }
   expand(matrix, work);
   sort_with_diagonal(matrix.size, work);
   const std::int32_t* pointers = problem.jacobian.pointers.data();

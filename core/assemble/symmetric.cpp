@@ -1,5 +1,7 @@
 #include "assemble/symmetric.h"
 
+#include <bit>
+#include <cstring>
 #include <limits>
 
 #include "assemble/validate.h"
@@ -142,6 +144,10 @@ void place(const SymmetricInput& a, EditWorkspace& work) {
     }
 }
 
+/// Differences of pairs, collected by |: a sum would wait for the one before. Those of finite, equal pairs are 0 or −0.
+std::uint64_t difference(double a, double b) { return std::bit_cast<std::uint64_t>(a - b); }
+bool equal(std::uint64_t differences) { return differences << 1 == 0; }
+
 /// Of a diagonal matrix: none is negative, all are finite.
 bool mirrored_diagonal(const SymmetricPattern& a, const double* values) {
   std::int32_t off = 0;  // two loops, each over entries of one size
@@ -185,15 +191,33 @@ bool mirrored(const SymmetricPattern& a, const double* values) {
   for (std::int32_t j = 0; j < a.size; ++j) {
     const std::int32_t begin = a.pointers[j] - a.pointers[0], end = a.pointers[j + 1] - a.pointers[0];
     std::int32_t e = begin, mirror = begin;
-    double off = 0;  // 0 is what is left of finite, equal pairs
-    for (; e < end && (mirror = a.slot[2 * e + 1]) < e; ++e) off += std::abs(values[e] - values[mirror]);
-    if (!(off == 0)) return false;
+    std::uint64_t off = 0;
+    for (; e < end && (mirror = a.slot[2 * e + 1]) < e; ++e) off |= difference(values[e], values[mirror]);
+    if (!equal(off)) return false;
     paired += 2 * (e - begin);
     if (e == end || mirror > e) continue;
     if (!(values[e] >= 0 && values[e] < infinity)) return false;
     ++paired;
   }
   return paired == a.count;
+}
+
+bool has_values_of(const SparseView& pattern, const SymmetricInput& a, Array<std::int32_t>& scratch) {
+  if (a.triangle != MLCP_FULL || a.size != pattern.outer || a.size == 0 || !a.column_pointers || !a.row_indices || !a.values) return false;
+  const std::int32_t *start = pattern.pointers, *rows = pattern.indices;
+  const std::size_t entries = start[a.size];
+  if (std::memcmp(a.column_pointers, start, (std::size_t(a.size) + 1) * sizeof *start) != 0) return false;
+  if (std::memcmp(a.row_indices, rows, entries * sizeof *rows) != 0) return false;
+  scratch.assign({start, std::size_t(a.size)});
+  std::int32_t* const next = scratch.data();  // of each column: its first entry whose mirror was not met
+  std::uint64_t off = 0;
+  bool positive = true;
+  for (std::int32_t j = 0; j < a.size; ++j) {
+    std::int32_t e = next[j];
+    positive &= (a.values[e] >= 0) & (a.values[e] < infinity);
+    for (const std::int32_t end = start[j + 1]; ++e < end;) off |= difference(a.values[e], a.values[next[rows[e]]++]);
+  }
+  return positive && equal(off);
 }
 
 void expand_values(const char* name, const SymmetricPattern& a, const double* values, double* diagonal,

@@ -33,6 +33,11 @@ struct SymmetricPattern {
 /// cost: a step for every other entry, which is all that a new mass has to pay beside the copy.
 bool mirrored(const SymmetricPattern& pattern, const double* values);
 
+/// Whether a matrix has the pattern of an earlier one, with sorted columns and every diagonal entry there, and values that may take the place of its values as
+/// they stand, as in mirrored().
+/// cost: a step for every other entry.
+bool has_values_of(const SparseView& pattern, const SymmetricInput& matrix, Array<std::int32_t>& scratch);
+
 /// out: the expanded values, the two triangles made equal.      diagonal: size doubles; whatever is negative there is found in them.
 /// fails: Error on the argument `name`, when they differ by more than rounding or one of them is missing and not 0.
 void expand_values(const char* name, const SymmetricPattern& pattern, const double* values, double* diagonal,

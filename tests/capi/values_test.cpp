@@ -149,6 +149,27 @@ TEST_F(Values, ComplianceMatrixInAnyOrderAndTriangle) {
   EXPECT_EQ(snapshot(p), snapshot(other.get()));
 }
 
+/// New values over the pattern that is there go straight to their places; what is wrong with them is found all the same.
+TEST_F(Values, ComplianceMatrixOverTheSamePattern) {
+  const std::vector<int32_t> pointers{0, 2, 4, 7, 8}, rows{0, 2, 1, 2, 0, 1, 2, 3};
+  const auto set = [&](mlcp_problem* to, const std::vector<double>& values) { return set_sigma(to, 4, pointers, rows, values); };
+  ASSERT_EQ(set(p, {1, 0.5, 2, 0.25, 0.5, 0.25, 0, 4}), MLCP_OK) << mlcp_problem_error(p);
+  const std::vector<double> next{2, -0.5, 3, 0.75, -0.5, 0.75, 1, 0};
+  ProblemHandle other = make_rich_problem();
+  ASSERT_EQ(set(p, next), MLCP_OK) << mlcp_problem_error(p);
+  ASSERT_EQ(set(other.get(), next), MLCP_OK);
+  EXPECT_EQ(dense(compliance_of(p), false), (std::vector<double>{2, 0, -0.5, 0, 0, 3, 0.75, 0, -0.5, 0.75, 1, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(snapshot(p), snapshot(other.get()));
+
+  expect_refused(p, MLCP_ERROR_ARGUMENT, "not symmetric", [&] { return set(p, {2, -0.5, 3, 0.75, -0.5, 0.5, 1, 0}); });
+  expect_refused(p, MLCP_ERROR_ARGUMENT, "values[1]", [&] { return set(p, {2, not_a_number, 3, 0.75, not_a_number, 0.75, 1, 0}); });
+  const double inf = std::numeric_limits<double>::infinity();
+  expect_refused(p, MLCP_ERROR_ARGUMENT, "values[3]", [&] { return set(p, {2, -0.5, 3, inf, -0.5, inf, 1, 0}); });
+  expect_refused(p, MLCP_ERROR_ARGUMENT, "values[6]", [&] { return set(p, {2, -0.5, 3, 0.75, -0.5, 0.75, inf, 0}); });
+  expect_refused(p, MLCP_ERROR_NULL, "row_indices", [&] { return mlcp_problem_set_compliance_matrix(p, 4, pointers.data(), nullptr, next.data(), MLCP_FULL); });
+  EXPECT_EQ(set(p, {2, -0.5, 3, 0.75, -0.5 * (1 + 1e-16), 0.75, 1, 0}), MLCP_OK);
+}
+
 TEST_F(Values, ComplianceMatrixReplacesEveryCompliance) {
   ASSERT_EQ(set_sigma(p, 4, {0, 0, 0, 0, 0}, {}, {}), MLCP_OK);
   EXPECT_EQ(fields().compliance, (std::vector<double>{0, 0, 0, 0}));

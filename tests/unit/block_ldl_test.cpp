@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "factorize/kernels.h"
+#include "support/kernels.h"
 #include "support/random.h"
 
 namespace support {
@@ -53,19 +54,20 @@ class BlockLdl : public testing::Test {
  protected:
   template <class Check>
   void each(Check check) {
-    for (int seed = 0; seed < 200; ++seed) {
-      SCOPED_TRACE(seed);
-      Random random(seed);
-      Case c(random, random.integer(1, 7));
-      c.eliminate(mlcp::portable_kernels);
-      check(c, random);
-      if (HasFatalFailure()) return;
-    }
+    for (const mlcp::Kernels* kernels : kernels_of_this_cpu())
+      for (int seed = 0; seed < 200; ++seed) {
+        SCOPED_TRACE(seed);
+        Random random(seed);
+        Case c(random, random.integer(1, 7));
+        c.eliminate(mlcp::portable_kernels);
+        check(c, random, *kernels);
+        if (HasFatalFailure()) return;
+      }
   }
 };
 
 TEST_F(BlockLdl, IsTheFactorOfItsMatrix) {
-  each([](Case& c, Random&) {
+  each([](Case& c, Random&, const mlcp::Kernels&) {
     const Eigen::MatrixXd l = c.L(), product = l * Eigen::Map<Eigen::VectorXd>(c.inverse.data(), c.size).cwiseInverse().asDiagonal() * l.transpose();
     ASSERT_LT((product - c.A).cwiseAbs().maxCoeff(), 1e-12);
     ASSERT_EQ(Eigen::MatrixXd(l.triangularView<Eigen::StrictlyUpper>()).cwiseAbs().maxCoeff(), 0);
@@ -73,15 +75,15 @@ TEST_F(BlockLdl, IsTheFactorOfItsMatrix) {
 }
 
 TEST_F(BlockLdl, SolvesWithItsTriangles) {
-  each([](Case& c, Random& random) {
+  each([](Case& c, Random& random, const mlcp::Kernels& kernels) {
     Eigen::VectorXd x(c.size);
     for (double& entry : x) entry = random.uniform();
     Eigen::VectorXd forward = x, backward = x;
     mlcp::portable_kernels.block_forward(c.factor(), c.blocks, forward.data());
     mlcp::portable_kernels.block_backward(c.factor(), c.blocks, backward.data());
     Eigen::VectorXd forward_here = x, backward_here = x;
-    mlcp::kernels_for_this_cpu().block_forward(c.factor(), c.blocks, forward_here.data());
-    mlcp::kernels_for_this_cpu().block_backward(c.factor(), c.blocks, backward_here.data());
+    kernels.block_forward(c.factor(), c.blocks, forward_here.data());
+    kernels.block_backward(c.factor(), c.blocks, backward_here.data());
     ASSERT_EQ(forward, forward_here);
     ASSERT_EQ(backward, backward_here);
     ASSERT_LT((c.L() * forward - x).cwiseAbs().maxCoeff(), 1e-13);
@@ -90,13 +92,12 @@ TEST_F(BlockLdl, SolvesWithItsTriangles) {
 }
 
 TEST_F(BlockLdl, PanelsAreSolvedAndMultipliedWithTheSameBitsOnEveryCpu) {
-  each([](Case& c, Random& random) {
+  each([](Case& c, Random& random, const mlcp::Kernels& kernels) {
     const int begin = random.integer(0, c.blocks - 1);
     Eigen::Matrix<double, -1, 4, Eigen::RowMajor> y = Eigen::MatrixXd::Zero(c.size, 4);
     for (int p = 4 * begin; p < c.size; ++p)
       for (int r = 0; r < 4; ++r) y(p, r) = random.chance(0.3) ? random.uniform() : 0;
     Case other = c;
-    const mlcp::Kernels& kernels = mlcp::kernels_for_this_cpu();
     other.eliminate(kernels);
     ASSERT_EQ(c.lower, other.lower);
     ASSERT_EQ(c.inverse, other.inverse);
@@ -132,7 +133,7 @@ TEST_F(BlockLdl, PanelsAreSolvedAndMultipliedWithTheSameBitsOnEveryCpu) {
 }
 
 TEST_F(BlockLdl, TilesAreMultipliedWithTheSameBitsOnEveryCpu) {
-  each([](Case& c, Random& random) {
+  each([](Case& c, Random& random, const mlcp::Kernels& kernels) {
     std::vector<std::int32_t> block;
     for (int b = 0; b < c.blocks; ++b)
       if (random.chance(0.6)) block.push_back(b);
@@ -147,7 +148,6 @@ TEST_F(BlockLdl, TilesAreMultipliedWithTheSameBitsOnEveryCpu) {
     Eigen::Vector4d y, weight;
     for (int q = 0; q < 4; ++q) y[q] = random.uniform(), weight[q] = random.uniform(0, 1);
 
-    const mlcp::Kernels& kernels = mlcp::kernels_for_this_cpu();
     Eigen::Vector4d times = y, times_again = y;
     mlcp::portable_kernels.tiles_times(count, block.data(), tiles.data(), x.data(), times.data());
     kernels.tiles_times(count, block.data(), tiles.data(), x.data(), times_again.data());
@@ -180,7 +180,7 @@ TEST_F(BlockLdl, SaysWhichRowHasNoPivot) {
     Case c(random, 3);
     const int row = random.integer(0, 3);
     c.A(8 + row, 8 + row) = -1;
-    for (const mlcp::Kernels* kernels : {&mlcp::portable_kernels, &mlcp::kernels_for_this_cpu()}) {
+    for (const mlcp::Kernels* kernels : kernels_of_this_cpu()) {
       for (int b = 0; b < 2; ++b) ASSERT_EQ(c.eliminate(*kernels, b), 4);
       ASSERT_EQ(c.eliminate(*kernels, 2), row);
     }

@@ -1,11 +1,15 @@
-// The portable loops and those for AVX2 give the same bits: on every CPU the same results.
+// The portable loops and those for AVX2 and AVX-512 give the same bits: on every CPU the same results.
 #include "factorize/kernels.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <utility>
 #include <vector>
 
+#include "support/kernels.h"
 #include "support/random.h"
 
 namespace support {
@@ -45,13 +49,13 @@ class Kernels : public testing::Test {
  protected:
   template <class Run>
   void compare(Run run) {
-    const mlcp::Kernels& other = mlcp::kernels_for_this_cpu();  // the portable ones where there is no AVX2: then this proves nothing
+    for (const mlcp::Kernels* other : kernels_of_this_cpu())  // the portable ones alone where there is no AVX2: then this proves nothing
     for (int seed = 0; seed < 3000; ++seed) {
       Random random(seed);
       const int columns = random.integer(1, 14), tail = random.integer(0, 23);
       Columns a(random, columns, tail), b = a;
       b.stretch.rows = b.rows.data();
-      const auto of_a = run(mlcp::portable_kernels, a), of_b = run(other, b);
+      const auto of_a = run(mlcp::portable_kernels, a), of_b = run(*other, b);
       ASSERT_EQ(of_a, of_b) << "seed " << seed;
       ASSERT_TRUE(same_bits(a.x, b.x) && same_bits(a.values, b.values) && same_bits(a.pivot, b.pivot)) << "seed " << seed;
     }
@@ -91,7 +95,7 @@ TEST_F(Kernels, BackwardSolvesTheTransposedColumns) {
 
 /// Columns with equal rows that do not act on each other are solved with as if each stood alone.
 TEST_F(Kernels, EqualColumnsAreSolvedWithAsOneByOne) {
-  for (const mlcp::Kernels* kernels : {&mlcp::portable_kernels, &mlcp::kernels_for_this_cpu()})
+  for (const mlcp::Kernels* kernels : kernels_of_this_cpu())
     for (int seed = 0; seed < 500; ++seed) {
       Random random(seed);
       const int columns = random.integer(1, 11), tail = random.integer(1, 19);
@@ -134,7 +138,7 @@ TEST_F(Kernels, ProductsSumOuterProductsInOrder) {
       for (double& entry : c[k]) entry = random.uniform();
       pointers.push_back(c[k].data());
     }
-    for (const mlcp::Kernels* kernels : {&mlcp::portable_kernels, &mlcp::kernels_for_this_cpu()}) {
+    for (const mlcp::Kernels* kernels : kernels_of_this_cpu()) {
       std::vector<double> block = before;
       kernels->products(count, columns, pointers.data(), inverse.data(), block.data());
       for (int a = 0; a < count; ++a)
@@ -161,12 +165,95 @@ TEST_F(Kernels, CombineSumsColumnsInOrder) {
       pointers.push_back(c[k].data());
       for (int i = 0; i < count; ++i) expected[i] += c[k][i] * f[k];
     }
-    for (const mlcp::Kernels* kernels : {&mlcp::portable_kernels, &mlcp::kernels_for_this_cpu()}) {
+    for (const mlcp::Kernels* kernels : kernels_of_this_cpu()) {
       std::vector<double> sum(count, 1e300);
       kernels->combine(count, columns, pointers.data(), f.data(), sum.data());
       ASSERT_EQ(sum, expected) << "seed " << seed;
     }
   }
+}
+
+/// Random rows of a dense A with explicit zeros, in rows of `stride` entries, and impulses.
+struct DenseRows {
+  int size, stride;
+  std::vector<double> a, inverse, b, lo, hi, gamma;
+  std::vector<std::uint8_t> state;
+
+  explicit DenseRows(Random& random) : size(random.integer(1, 37)), stride((size + 3) / 4 * 4), a(stride * stride), b(stride) {
+    for (int i = 0; i < size; ++i)
+      for (int j = 0; j < i; ++j) a[i * stride + j] = a[j * stride + i] = random.chance(0.7) ? random.uniform() : 0;
+    for (int i = 0; i < size; ++i) {
+      a[i * stride + i] = size;
+      b[i] = random.uniform();
+      inverse.push_back(random.chance(0.9) ? 1.0 / size : 0);
+      lo.push_back(random.chance(0.8) ? 0 : -1e300);
+      hi.push_back(random.chance(0.8) ? 1e300 : 0.01);
+      gamma.push_back(random.chance(0.5) ? random.uniform(0, 0.01) : 0);
+      state.push_back(mlcp::DenseSweep::between);
+    }
+  }
+  /// A γ + b, and the magnitude of the terms.
+  std::pair<double, double> slack(int i) const {
+    double w = b[i], terms = std::abs(b[i]);
+    for (int j = 0; j < size; ++j) w += a[i * stride + j] * gamma[j], terms += std::abs(a[i * stride + j] * gamma[j]);
+    return {w, terms};
+  }
+};
+
+/// Each impulse in turn makes its row's slack 0 or comes to rest at a bound, and the slacks go with the impulses.
+TEST_F(Kernels, ImpulseSweepIsProjectedGaussSeidel) {
+  for (const mlcp::Kernels* kernels : kernels_of_this_cpu())
+    for (int seed = 0; seed < 500; ++seed) {
+      Random random(seed);
+      DenseRows one(random), expected = one, portable = one;
+      const auto sweep = [](const mlcp::Kernels& by, DenseRows& r) {
+        std::vector<double> w(r.stride);
+        for (int i = 0; i < r.size; ++i) w[i] = r.slack(i).first;
+        const bool changed = by.impulse_sweep({r.size, r.stride, r.a.data(), r.inverse.data(), r.lo.data(), r.hi.data(), r.gamma.data(), w.data(), r.state.data()});
+        return std::pair(w, changed);
+      };
+      bool any = false;
+      for (int i = 0; i < expected.size; ++i) {
+        if (expected.inverse[i] == 0) continue;
+        const double free = expected.gamma[i] - expected.slack(i).first / one.size;
+        const auto state = free <= one.lo[i] ? mlcp::DenseSweep::at_lower : free >= one.hi[i] ? mlcp::DenseSweep::at_upper : mlcp::DenseSweep::between;
+        expected.gamma[i] = std::clamp(free, one.lo[i], one.hi[i]);
+        any |= state != expected.state[i];
+        expected.state[i] = state;
+      }
+      const auto [w, changed] = sweep(*kernels, one);
+      ASSERT_EQ(changed, any) << "seed " << seed;
+      ASSERT_EQ(one.state, expected.state) << "seed " << seed;
+      for (int i = 0; i < one.size; ++i) {
+        ASSERT_NEAR(one.gamma[i], expected.gamma[i], 1e-14) << "seed " << seed << " at " << i;
+        ASSERT_NEAR(w[i], expected.slack(i).first, 1e-13) << "seed " << seed << " at " << i;
+      }
+      ASSERT_TRUE(same_bits(w, sweep(mlcp::portable_kernels, portable).first) && same_bits(one.gamma, portable.gamma)) << "seed " << seed;
+    }
+}
+
+/// Only the fours asked for, each entry summed in the order of the columns, on every CPU.
+TEST_F(Kernels, ColumnProductsSumInTheOrderOfTheList) {
+  for (const mlcp::Kernels* kernels : kernels_of_this_cpu())
+    for (int seed = 0; seed < 500; ++seed) {
+      Random random(seed);
+      const DenseRows r(random);
+      std::vector<std::int32_t> columns, fours;
+      for (int j = 0; j < r.size; ++j)
+        if (random.chance(0.5)) columns.push_back(j);
+      for (int b = 0; b < r.stride / 4; ++b)
+        if (random.chance(0.6)) fours.push_back(b);
+      std::vector<double> sum(r.stride, -7), size = sum, expected = sum, sizes = sum;
+      for (const int b : fours)
+        for (int i = 4 * b; i < 4 * b + 4; ++i) {
+          expected[i] = sizes[i] = 0;
+          for (const int j : columns) expected[i] += r.a[j * r.stride + i] * r.gamma[j], sizes[i] += std::abs(r.a[j * r.stride + i] * r.gamma[j]);
+        }
+      kernels->column_products({static_cast<int>(fours.size()), fours.data()}, {static_cast<int>(columns.size()), columns.data()}, r.stride, r.a.data(),
+                               r.gamma.data(), sum.data(), size.data());
+      ASSERT_EQ(sum, expected) << "seed " << seed;
+      ASSERT_EQ(size, sizes) << "seed " << seed;
+    }
 }
 
 }  // namespace
