@@ -13,7 +13,7 @@ constexpr std::int64_t line = 8;
 
 std::int64_t real_count(std::int64_t m, std::int64_t blocks, std::int64_t panels) {
   const std::int64_t by_lines = BlockLdl::reals(blocks) + 16 * blocks * panels + 32 * panels * panels + BlockLdl::reals(panels) + 16 * blocks;
-  return by_lines + (12 * blocks + 12 * panels + 5 * m + 4 * (blocks + panels) + line - 1) / line * line;
+  return by_lines + (12 * blocks + 16 * panels + 4 * m + 4 * (blocks + panels) + line - 1) / line * line;
 }
 std::int64_t integer_count(std::int64_t m, std::int64_t panels) { return 4 * panels + 2 * m; }
 
@@ -89,8 +89,8 @@ DenseIsland DenseResponse::lay_out(std::int32_t c) {
   for (double** part : {&s.a, &s.tableau}) *part = take(real, 16 * panels * panels);
   for (double** part : {&s.mass.inverse, &s.reach, &s.k}) *part = take(real, 4 * blocks);
   s.active.inverse = take(real, 4 * panels);
-  for (double** part : {&s.w, &s.scale}) *part = take(real, 4 * panels);
-  for (double** part : {&s.b, &s.size, &s.lo, &s.hi, &s.gamma}) *part = take(real, m);
+  for (double** part : {&s.gamma, &s.w, &s.scale}) *part = take(real, 4 * panels);
+  for (double** part : {&s.b, &s.size, &s.lo, &s.hi}) *part = take(real, m);
   s.x = take(real, 4 * (blocks + panels));
   s.mass.first = first_.data() + place.blocks;
   for (std::int32_t** part : {&s.begin, &s.end, &s.active.first, &s.fours}) *part = take(integer, panels);
@@ -137,6 +137,7 @@ bool DenseResponse::compute(const Problem& problem, std::int32_t component) {
     for (std::int32_t i = 4 * c; i < std::min(4 * c + 4, s.m); ++i) load_row(problem, s, i);
     respond(s, c);
   }
+  std::fill(s.gamma + s.m, s.gamma + 4 * s.panels, 0.0);
   const SparseView sigma = problem.compliance_view();
   for (std::int32_t i = 0; i < s.m; ++i) {
     for (std::int32_t t = sigma.pointers[s.row[i]]; t < sigma.pointers[s.row[i] + 1]; ++t)
@@ -294,11 +295,10 @@ void DenseResponse::velocities(const DenseIsland& s) {
   double* const v = s.x;
   std::copy(s.k, s.k + 4 * s.blocks, v);
   for (std::int32_t c = 0; c < s.panels; ++c) {
-    double g[4] = {};
-    for (std::int32_t i = 4 * c; i < std::min(4 * c + 4, s.m); ++i) g[i - 4 * c] = -s.gamma[i];
+    const double* const g = s.gamma + 4 * c;
     if (g[0] == 0 && g[1] == 0 && g[2] == 0 && g[3] == 0) continue;
     const std::int64_t begin = s.begin[c];
-    s.kernels->panel_subtract(4 * (s.end[c] - begin), s.panel(c) + 16 * begin, g, v + 4 * begin);
+    s.kernels->panel_add(4 * (s.end[c] - begin), s.panel(c) + 16 * begin, g, v + 4 * begin);
   }
   for (std::int32_t p = 0; p < 4 * s.blocks; ++p) v[p] *= s.mass.inverse[p];
   s.kernels->block_backward(s.mass, s.blocks, v);

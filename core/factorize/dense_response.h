@@ -28,7 +28,7 @@ struct DenseIsland {
   std::int32_t* member;
   std::int32_t* members;                ///< how many
   std::int32_t *pushing, *fours;       ///< m, panels: scratch, rows with an impulse, fours of rows to look at
-  double* gamma;
+  double* gamma;                       ///< 4 panels, what fills the last one is 0
   std::uint8_t* state;                 ///< m: where each row stands, for the method
   double* tableau;                     ///< 4 panels rows of 4 panels: DenseTableau
   double *w, *scale;                   ///< 4 panels: slacks, and their terms by magnitude, for the method

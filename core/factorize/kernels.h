@@ -67,8 +67,8 @@ struct Kernels {
   /// x := L⁻¹ x; x := L⁻ᵀ x.
   void (*block_forward)(const BlockLdl&, std::int32_t blocks, double* x);
   void (*block_backward)(const BlockLdl&, std::int32_t blocks, double* x);
-  /// x[q] −= Σ_r y[4q + r] g[r] over `count` entries q, a multiple of four.
-  void (*panel_subtract)(std::int64_t count, const double* y, const double* g, double* x);
+  /// x[q] += Σ_r y[4q + r] g[r] over `count` entries q, a multiple of four.
+  void (*panel_add)(std::int64_t count, const double* y, const double* g, double* x);
   /// scaled := d⁻¹ y, sum[lane] := Σ_q scaled[4q + lane] k[q], over `count` entries q.
   void (*panel_scale)(std::int64_t count, const double* y, const double* inverse, const double* k, double* scaled, double* sum);
   /// tile[stride · r + lane] := Σ_q x[4q + r] y[4q + lane] over `count` entries q; mirror[stride · lane + r] the same, before that.

@@ -8,7 +8,7 @@
 namespace mlcp {
 
 const Kernels avx2_kernels{forward,       combine,        products,       backward,    rank_one,      panel_forward, block_eliminate,
-                               block_forward, block_backward, panel_subtract, panel_scale, panel_product, tiles_square,
+                               block_forward, block_backward, panel_add, panel_scale, panel_product, tiles_square,
                                tiles_times, tiles_transposed, impulse_sweep, column_products, sweep};
 
 }  // namespace mlcp

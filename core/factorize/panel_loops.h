@@ -117,20 +117,19 @@ std::int32_t block_eliminate(const BlockLdl& f, std::int32_t b, const double* le
   return 4;
 }
 
-/// x −= yᵀ g for four columns y of four entries each.
-inline void subtract_dots(const double* y, const Lanes& g, double* x) {
-  Lanes s[4];
-  load_block(y, s);
-  for (int r = 0; r < 4; ++r) s[r] *= g;
-  const Lanes even{s[0][0], s[1][0], s[2][0], s[3][0]}, odd{s[0][1], s[1][1], s[2][1], s[3][1]};
-  const Lanes next{s[0][2], s[1][2], s[2][2], s[3][2]}, last{s[0][3], s[1][3], s[2][3], s[3][3]};
-  *reinterpret_cast<Lanes*>(x) -= (even + odd) + (next + last);
+/// x += yᵀ g for columns y of four entries each.
+inline void add_dots(std::int64_t count, const double* y, const Lanes& g, double* x) {
+  for (const double* const end = x + count; x != end; x += 4, y += 16) {
+    Lanes s[4];
+    load_block(y, s);
+    for (int r = 0; r < 4; ++r) s[r] *= g;
+    const Lanes even{s[0][0], s[1][0], s[2][0], s[3][0]}, odd{s[0][1], s[1][1], s[2][1], s[3][1]};
+    const Lanes next{s[0][2], s[1][2], s[2][2], s[3][2]}, last{s[0][3], s[1][3], s[2][3], s[3][3]};
+    *reinterpret_cast<Lanes*>(x) += (even + odd) + (next + last);
+  }
 }
 
-void panel_subtract(std::int64_t count, const double* y, const double* g, double* x) {
-  const Lanes four = *reinterpret_cast<const Lanes*>(g);
-  for (std::int64_t q = 0; q < count; q += 4) subtract_dots(y + 4 * q, four, x + q);
-}
+void panel_add(std::int64_t count, const double* y, const double* g, double* x) { add_dots(count, y, *reinterpret_cast<const Lanes*>(g), x); }
 
 void block_forward(const BlockLdl& f, std::int32_t blocks, double* x) {
   for (std::int32_t b = 0; b < blocks; ++b) {
@@ -151,11 +150,11 @@ void block_backward(const BlockLdl& f, std::int32_t blocks, double* x) {
   for (std::int32_t b = blocks; b-- > 0;) {
     const std::int64_t begin = 4 * std::int64_t{f.first[b]}, end = 4 * std::int64_t{b};
     const double *l = block_of(f, b), *own = l + 4 * end;
-    double* const y = x + end;
-    y[2] -= own[11] * y[3];
-    y[1] -= own[6] * y[2] + own[7] * y[3];
-    y[0] -= own[1] * y[1] + (own[2] * y[2] + own[3] * y[3]);
-    panel_subtract(end - begin, l + 4 * begin, y, x + begin);
+    const double* const y = x + end;
+    const double y3 = y[3], y2 = y[2] - own[11] * y3, y1 = y[1] - (own[6] * y2 + own[7] * y3), y0 = y[0] - (own[1] * y1 + (own[2] * y2 + own[3] * y3));
+    const Lanes four{y0, y1, y2, y3};  // not read back: a vector waits for what was written one by one
+    *reinterpret_cast<Lanes*>(x + end) = four;
+    add_dots(end - begin, l + 4 * begin, -four, x + begin);
   }
 }
 
