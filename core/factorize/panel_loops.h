@@ -1,5 +1,8 @@
 /// The panel loops of Kernels, compiled once by each kernels*.cpp with its own instruction set, like kernel_loops.h.
 #include <cstdint>
+#if defined(__AVX__)
+#include <immintrin.h>
+#endif
 
 #include "factorize/kernels.h"
 
@@ -62,6 +65,14 @@ inline void product(std::int64_t count, const double* left, const double* right,
 }
 #endif
 
+inline bool any_bit(const Bits& a) {
+#if defined(__AVX__)
+  return !_mm256_testz_si256(reinterpret_cast<__m256i>(a), reinterpret_cast<__m256i>(a));
+#else
+  return (a[0] | a[1] | a[2] | a[3]) != 0;
+#endif
+}
+
 /// BlockLdl::block and std::max, local to this file.
 inline double* block_of(const BlockLdl& f, std::int64_t b) { return f.lower + 8 * b * (b + 1); }
 inline std::int32_t larger(std::int32_t a, std::int32_t b) { return a > b ? a : b; }
@@ -85,8 +96,7 @@ std::int32_t panel_forward(const BlockLdl& f, std::int32_t begin, std::int32_t b
     s[3] -= own[7] * s[1];
     s[3] -= own[11] * s[2];
     store_block(s, y + 16 * std::int64_t{b});
-    const Bits any = reinterpret_cast<Bits>(s[0]) | reinterpret_cast<Bits>(s[1]) | reinterpret_cast<Bits>(s[2]) | reinterpret_cast<Bits>(s[3]);
-    if ((any[0] | any[1] | any[2] | any[3]) != 0) end = b + 1;
+    if (any_bit(reinterpret_cast<Bits>(s[0]) | reinterpret_cast<Bits>(s[1]) | reinterpret_cast<Bits>(s[2]) | reinterpret_cast<Bits>(s[3]))) end = b + 1;
   }
   return end;
 }
