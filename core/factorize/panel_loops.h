@@ -101,6 +101,16 @@ std::int32_t panel_forward(const BlockLdl& f, std::int32_t begin, std::int32_t b
   return end;
 }
 
+inline bool is_pivot(double d, double inverse, double least) {
+  const bool finite = 0 * (d + inverse) == 0;  // or 0 · ∞ would spoil the rows that fill the block
+  return finite && (d > least || (least > 0 && -d > least));
+}
+/// to := a, but for rows 0 .. c, which are 0.
+inline void keep_below(int c, const Lanes& a, Lanes& to) {
+  const Bits kept{0, c < 1 ? -1 : 0, c < 2 ? -1 : 0, c < 3 ? -1 : 0};
+  to = reinterpret_cast<Lanes>(reinterpret_cast<Bits>(a) & kept);
+}
+
 std::int32_t block_eliminate(const BlockLdl& f, std::int32_t b, const double* least) {
   double *const l = block_of(f, b), *const own = l + 16 * std::int64_t{b};
   const std::int32_t begin = f.first[b], end = panel_forward(f, begin, b, l);
@@ -112,16 +122,26 @@ std::int32_t block_eliminate(const BlockLdl& f, std::int32_t b, const double* le
     for (int c = 0; c < 4; ++c) s[c] -= z[c] * scaled;
     *reinterpret_cast<Lanes*>(z) = scaled;
   }
-  // s[c][r]: entry (r, c); what is above the diagonal is of no effect
-  for (int c = 0; c < 4; ++c) {
-    const double d = s[c][c], inverse = 1 / d;
-    const bool finite = 0 * (d + inverse) == 0;  // or 0 · ∞ would spoil the rows that fill the block
-    if (!finite || !(d > least[c] || (least[c] > 0 && -d > least[c]))) return c;
+  // s[c][r]: entry (r, c); what is above the diagonal is of no effect. Two pivots at a time: their divisions
+  // do not wait for each other, which is the longest wait of a small factor.
+  for (int c = 0; c < 4; c += 2) {
+    const double first = s[c][c], beside = s[c][c + 1], inverse = 1 / first;
+    const double product = first * s[c + 1][c + 1], determinant = product - beside * beside;
+    double pivot = determinant * inverse, next = first / determinant;
+    if (!(__builtin_fabs(product) < 1e250 && __builtin_fabs(determinant) > 1e-250)) {
+      pivot = s[c + 1][c + 1] - beside * (beside * inverse);
+      next = 1 / pivot;
+    }
+    if (!is_pivot(first, inverse, least[c])) return c;
+    if (!is_pivot(pivot, next, least[c + 1])) return c + 1;
     f.inverse[4 * b + c] = inverse;
+    f.inverse[4 * b + c + 1] = next;
     const Lanes unit = s[c] * inverse;
     for (int j = c + 1; j < 4; ++j) s[j] -= s[c][j] * unit;
-    s[c] = unit;
-    for (int r = 0; r <= c; ++r) s[c][r] = 0;
+    const Lanes second = s[c + 1] * next;
+    for (int j = c + 2; j < 4; ++j) s[j] -= s[c + 1][j] * second;
+    keep_below(c, unit, s[c]);
+    keep_below(c + 1, second, s[c + 1]);
   }
   store_block(s, own);
   return 4;

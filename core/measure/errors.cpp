@@ -32,17 +32,17 @@ void Measure::momentum(const Problem& problem, std::span<const std::int32_t> vel
   for (const std::int32_t j : velocities) {
     const double k = problem.momentum[j];
     double sum = -k, size = std::abs(k);
-    std::int32_t diagonal = -1;
-    for (std::int32_t t = mass.pointers[j], end = mass.pointers[j + 1]; t < end; ++t) {
-      const std::int32_t other = mass.indices[t];
-      const double term = mass.values[t] * v[other];
+    const std::int32_t begin = mass.pointers[j], end = mass.pointers[j + 1];
+    for (std::int32_t t = begin; t < end; ++t) {
+      const double term = mass.values[t] * v[mass.indices[t]];
       sum += term;
       size += std::abs(term);
-      if (other == j) diagonal = t;
     }
     sum_[j] = sum;
     size_[j] = size;
-    diagonal_[j] = diagonal < 0 ? 0 : mass.values[diagonal];
+    std::int32_t& at = diagonal_at_[j];
+    if (at < begin || at >= end || mass.indices[at] != j) at = static_cast<std::int32_t>(std::find(mass.indices + begin, mass.indices + end, j) - mass.indices);
+    diagonal_[j] = at == end ? 0 : mass.values[at];
     reach_[j] = -1;
   }
   for (const std::int32_t i : rows) {
@@ -155,6 +155,7 @@ void Measure::take_maxima(const Mask* enabled, Errors& e) const {
 Errors Measure::begin(const Problem& problem, const Mask* enabled, std::span<const std::int32_t> free_velocity, std::span<const double> v) {
   const std::int32_t n = problem.n(), m = problem.m();
   for (Array<double>* by_velocity : {&sum_, &size_, &diagonal_, &reach_, &inverse_}) by_velocity->resize(n);
+  diagonal_at_.resize(n, -1);
   for (Array<double>* by_row : {&w, &scale, &a, &residual, &error}) by_row->resize(m);
   for (std::int32_t i = 0; enabled && i < m; ++i)
     if (enabled->state[i] == MLCP_ROW_DISABLED) w[i] = scale[i] = a[i] = residual[i] = error[i] = 0;

@@ -23,7 +23,7 @@ struct Errors {
 /// Workspace and per-row numbers of one measurement.
 class Measure {
  public:
-  explicit Measure(const Memory& m) : w(m), scale(m), a(m), residual(m), error(m), sum_(m), size_(m), diagonal_(m), reach_(m), inverse_(m), velocities_(m), rows_(m), largest_(m) {}
+  explicit Measure(const Memory& m) : w(m), scale(m), a(m), residual(m), error(m), sum_(m), size_(m), diagonal_(m), diagonal_at_(m), reach_(m), inverse_(m), velocities_(m), rows_(m), largest_(m) {}
 
   /// contact_of_row: see SolveInput.
   /// after: w, scale, a, error (rows) and velocity_error() are what the maxima were taken over; rows left out by enabled are 0.
@@ -74,6 +74,7 @@ class Measure {
   Array<double> sum_;
   Array<double> size_;             // −1 on prescribed bodies
   Array<double> diagonal_;         // Mⱼⱼ; where rows have been, 1 if that is not positive; 0 on prescribed bodies
+  Array<std::int32_t> diagonal_at_;  // where Mⱼⱼ stood among the entries of M at the last look
   Array<double> reach_, inverse_;  // |v| + |v₀|, −1 where no row has asked for it; 1/Mⱼⱼ likewise
   Array<std::int32_t> velocities_, rows_;  // all that is measured by run()
   Array<double> largest_;                  // by contact

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <cmath>
 #include <vector>
 
 #include "factorize/kernels.h"
@@ -172,6 +173,18 @@ TEST_F(BlockLdl, TilesAreMultipliedWithTheSameBitsOnEveryCpu) {
         ASSERT_NEAR(lower[at] - before[at], square(p, q), 1e-13);
       }
   });
+}
+
+/// Products of two pivots, which are found together, may overflow or vanish.
+TEST_F(BlockLdl, PivotsOfAnySizeAreFound) {
+  for (const double scale : {std::ldexp(1, 700), std::ldexp(1, -700), std::ldexp(1, 400), std::ldexp(1, -500)})
+    each([&](Case& c, Random&, const mlcp::Kernels& kernels) {
+      Case other = c;
+      other.A *= scale;
+      other.eliminate(kernels);
+      for (int p = 0; p < c.size; ++p) ASSERT_NEAR(other.inverse[p] * scale, c.inverse[p], 1e-13 * c.inverse[p]);
+      ASSERT_LT((other.L() - c.L()).cwiseAbs().maxCoeff(), 1e-13);
+    });
 }
 
 TEST_F(BlockLdl, SaysWhichRowHasNoPivot) {
