@@ -47,10 +47,12 @@ def _peak():
 
 def keep_freed_memory():
     """As in a process that has run for a while: glibc hands memory back to the system from twice the largest block on that was ever freed. In a new
-    process that is 128 KB, and most of a cold solve of a few hundred rows are page faults, for libmlcp and for peers alike.
-    Workers are forked and inherit it."""
-    block = np.empty(31 << 20, np.uint8)  # glibc follows up to 32 MB
-    del block
+    process that is 128 KB, and most of a cold solve of a few hundred rows are page faults; later it is 64 MB, and half of a cold solve of 10⁵ links is. Here all
+    blocks up to 32 MB, glibc's limit, stay, for libmlcp and for peers alike. Workers are forked and inherit it."""
+    trim_threshold, mmap_threshold = -1, -3  # malloc.h: M_TRIM_THRESHOLD, M_MMAP_THRESHOLD
+    mallopt = ctypes.CDLL(None).mallopt
+    if not (mallopt(mmap_threshold, 32 << 20) and mallopt(trim_threshold, 2**31 - 1)):
+        raise OSError("mallopt: glibc does not keep what is freed")
 
 
 def _serve(pipe, problem, candidate):
