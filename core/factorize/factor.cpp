@@ -243,12 +243,20 @@ std::int64_t Factor::entry(std::int32_t column, std::int32_t row) const {
 
 void Factor::clear_row(std::int32_t p, std::int64_t& work) {
   // row p of L: the tree's subtree that the nodes of K(p,:) before p span
-  for (std::int32_t t = pattern_->upper_pointers[p]; t < pattern_->upper_pointers[p + 1]; ++t)
+  for (std::int32_t t = pattern_->upper_pointers[p]; t < pattern_->upper_pointers[p + 1]; ++t) {
+    std::int32_t run_end = 0;
+    std::int64_t from_end = 0;  // the same for all columns of a run
     for (std::int32_t q = pattern_->upper_rows[t]; q >= 0 && q < p && mark_[q] != p; q = symbolic_->parent[q]) {
       mark_[q] = p;
-      if (in_[q]) values_[entry(q, p)] = 0;
       ++work;
+      if (!in_[q]) continue;
+      if (run_end != symbolic_->run_end[q]) {
+        run_end = symbolic_->run_end[q];
+        from_end = symbolic_->pointers[q + 1] - entry(q, p);
+      }
+      values_[symbolic_->pointers[q + 1] - from_end] = 0;
     }
+  }
   for (std::int32_t t = pattern_->upper_pointers[p]; t < pattern_->upper_pointers[p + 1]; ++t)
     for (std::int32_t q = pattern_->upper_rows[t]; q >= 0 && q < p && mark_[q] == p; q = symbolic_->parent[q]) mark_[q] = -1;
 }
