@@ -50,32 +50,33 @@ void rank_one_column(std::int64_t count, double* __restrict c, double* __restric
   }
 }
 
-/// sum[i] += c[0][i] f[0], then c[1][i] f[1], …: B columns at a time, each entry's sum in order.
-template <int B>
-inline void add_columns(std::int64_t count, const double* const* c, const double* f, double* __restrict sum) {
-  std::int64_t i = 0;
-  for (; i + 4 <= count; i += 4) {
-    Four s = *reinterpret_cast<const Four*>(sum + i);
+/// combine() on `count` entries, more than 4 (V − 1) and at most 4 V: sums stay in registers from the first column to the last.
+template <int V>
+inline void add_columns(std::int64_t count, std::int64_t first, std::int32_t columns, const double* const* c, const double* f, double* sum) {
+  constexpr int whole = V - 1;
+  Four s[V] = {};
+  for (std::int32_t k = 0; k < columns; ++k) {
+    const double* const column = c[k] + first;
+    const double factor = f[k];
 #pragma GCC unroll 4
-    for (int b = 0; b < B; ++b) s += *reinterpret_cast<const Four*>(c[b] + i) * f[b];
-    *reinterpret_cast<Four*>(sum + i) = s;
+    for (int v = 0; v < whole; ++v) s[v] += reinterpret_cast<const Four*>(column)[v] * factor;
+    Four last;
+    load_part(column + 4 * whole, count - 4 * whole, last);
+    s[whole] += last * factor;
   }
-  for (; i < count; ++i) {
-    double s = sum[i];
 #pragma GCC unroll 4
-    for (int b = 0; b < B; ++b) s += c[b][i] * f[b];
-    sum[i] = s;
-  }
+  for (int v = 0; v < whole; ++v) reinterpret_cast<Four*>(sum + first)[v] = s[v];
+  for (std::int64_t i = 4 * whole; i < count; ++i) sum[first + i] = s[whole][i - 4 * whole];
 }
 
 void combine(std::int64_t count, std::int32_t columns, const double* const* c, const double* f, double* sum) {
-  for (std::int64_t i = 0; i < count; ++i) sum[i] = 0;
-  std::int32_t k = 0;
-  for (; k + 4 <= columns; k += 4) add_columns<4>(count, c + k, f + k, sum);
-  switch (columns - k) {
-    case 3: add_columns<3>(count, c + k, f + k, sum); break;
-    case 2: add_columns<2>(count, c + k, f + k, sum); break;
-    case 1: add_columns<1>(count, c + k, f + k, sum); break;
+  std::int64_t i = 0;
+  for (; i + 16 < count; i += 16) add_columns<4>(16, i, columns, c, f, sum);
+  switch ((count - i + 3) / 4) {
+    case 4: add_columns<4>(count - i, i, columns, c, f, sum); break;
+    case 3: add_columns<3>(count - i, i, columns, c, f, sum); break;
+    case 2: add_columns<2>(count - i, i, columns, c, f, sum); break;
+    case 1: add_columns<1>(count - i, i, columns, c, f, sum); break;
   }
 }
 
