@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 namespace mlcp {
 
@@ -71,17 +72,29 @@ void* SmallBlocks::take_from_room(std::size_t bytes) {
   return block;
 }
 
+/// What nearly every call comes for, a first small block, without the registers that the rest needs.
 void* SmallBlocks::reallocate(void* self, void* block, std::size_t old_size, std::size_t new_size) {
   SmallBlocks& blocks = *static_cast<SmallBlocks*>(self);
+  if (block || !is_small(new_size)) return blocks.move(block, old_size, new_size);
+  const int c = size_class(new_size);
+  if (Block* const kept = blocks.free_[c]) {
+    blocks.free_[c] = kept->next;
+    return kept;
+  }
+  if (static_cast<std::size_t>(blocks.end_ - blocks.next_) < smallest << c) return blocks.move(block, old_size, new_size);
+  return std::exchange(blocks.next_, blocks.next_ + (smallest << c));
+}
+
+void* SmallBlocks::move(void* block, std::size_t old_size, std::size_t new_size) {
   const bool was_small = block && is_small(old_size), small = is_small(new_size);
   if (was_small && small && size_class(old_size) == size_class(new_size)) return block;
   try {
-    if (block && !was_small && !small && !blocks.is_in_room(block)) return blocks.source_.reallocate(block, old_size, new_size);
-    void* fresh = small ? blocks.take(size_class(new_size)) : block ? nullptr : blocks.take_from_room(new_size);
-    if (!fresh) fresh = blocks.source_.reallocate(nullptr, 0, new_size);
+    if (block && !was_small && !small && !is_in_room(block)) return source_.reallocate(block, old_size, new_size);
+    void* fresh = small ? take(size_class(new_size)) : block ? nullptr : take_from_room(new_size);
+    if (!fresh) fresh = source_.reallocate(nullptr, 0, new_size);
     if (!block) return fresh;
     std::memcpy(fresh, block, std::min(old_size, new_size));
-    release(self, block, old_size);
+    release(this, block, old_size);
     return fresh;
   } catch (const std::bad_alloc&) {
     return nullptr;

@@ -34,6 +34,7 @@ class SmallBlocks {
   static bool is_small(std::size_t bytes);
   static void* reallocate(void* self, void* block, std::size_t old_size, std::size_t new_size);
   static void release(void* self, void* block, std::size_t size);
+  void* move(void* block, std::size_t old_size, std::size_t new_size);
   void* take(int size_class);
   void* take_from_room(std::size_t bytes);
   bool is_in_room(const void* block) const;
