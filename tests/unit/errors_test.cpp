@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "analyze/components.h"
+#include "assemble/bodies.h"
 #include "assemble/contacts.h"
 #include "measure/cones.h"
 #include "support/random_problem.h"
@@ -116,6 +117,26 @@ TEST(Errors, OverflowIsAnInfiniteError) {
   add_body(p, 1, 1e300);
   add_row(p, {{0, 1e300}});
   EXPECT_EQ(measure(p, {1e300}, {0}).momentum, mlcp::infinity);
+}
+
+/// Two problems of equal sizes, one after the other: where the diagonal of M stood in the first says nothing about the second.
+TEST(Errors, AnotherPatternOfTheMassIsLookedAtAnew) {
+  const auto problem = [](std::vector<std::int32_t> pointers, std::vector<std::int32_t> rows, std::vector<double> values) {
+    mlcp::Problem p = empty_problem();
+    mlcp::body_add_sparse(p, 2, pointers.data(), rows.data(), values.data(), MLCP_FULL);
+    set_k(p, Eigen::VectorXd::Constant(2, 1));
+    add_row(p, {{0, 1}, {1, 1}}, 0, unilateral);
+    return p;
+  };
+  const mlcp::Problem sorted = problem({0, 2, 4}, {0, 1, 0, 1}, {4, 1, 1, 4}), reversed = problem({0, 2, 4}, {1, 0, 1, 0}, {1, 4, 4, 1});
+  mlcp::Measure measure{mlcp::Memory()};
+  const std::vector<double> v{0.2, 0.1}, gamma{0};
+  const mlcp::Errors first = measure.run(sorted, nullptr, v, gamma);
+  const double scale = measure.scale[0], a = measure.a[0];
+  const mlcp::Errors second = measure.run(reversed, nullptr, v, gamma);
+  EXPECT_EQ(measure.scale[0], scale);
+  EXPECT_EQ(measure.a[0], a);
+  EXPECT_EQ(second.momentum, first.momentum);
 }
 
 TEST(Errors, EmptyProblemHasNone) {
