@@ -18,39 +18,48 @@ inline void load_block(const double* from, Lanes (&s)[4]) {
 }
 #if defined(__AVX512F__)
 typedef double Eight __attribute__((vector_size(64), aligned(8), may_alias));
-typedef long long EightBits __attribute__((vector_size(64), aligned(8)));
 
 inline Eight joined(const Lanes& a, const Lanes& b) { return Eight{a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]}; }
-/// By eights: product() reads them so, and a load waits for two stores that each have a half of it.
-inline void store_block(const Lanes (&s)[4], double* to) {
-  *reinterpret_cast<Eight*>(to) = joined(s[0], s[1]);
-  *reinterpret_cast<Eight*>(to + 8) = joined(s[2], s[3]);
-}
+/// Entry r of each half, four times.
+template <int r>
+inline Eight spread(const Eight& f) {
+#if defined(__clang__) || __GNUC__ >= 12
+  return __builtin_shufflevector(f, f, r, r, r, r, r + 4, r + 4, r + 4, r + 4);
 #else
-inline void store_block(const Lanes (&s)[4], double* to) {
-  for (int r = 0; r < 4; ++r) *reinterpret_cast<Lanes*>(to + 4 * r) = s[r];
+  typedef long long Places __attribute__((vector_size(64)));
+  return __builtin_shuffle(f, Places{r, r, r, r, r + 4, r + 4, r + 4, r + 4});
+#endif
 }
 #endif
 
-/// sum(r, :) := Σ_q left(q, r) right(q, :). count: a multiple of two. Even and odd q are summed apart, or each sum would wait for the one before.
+/// By eights where product() reads them so: a load waits for two stores that each have a half of it.
+inline void store_block(const Lanes (&s)[4], double* to) {
 #if defined(__AVX512F__)
-/// Sums of even q in the first half of a register, of odd q in the second: the same operations as below.
+  *reinterpret_cast<Eight*>(to) = joined(s[0], s[1]);
+  *reinterpret_cast<Eight*>(to + 8) = joined(s[2], s[3]);
+#else
+  for (int r = 0; r < 4; ++r) *reinterpret_cast<Lanes*>(to + 4 * r) = s[r];
+#endif
+}
+
+/// sum(r, :) := Σ_q left(q, r) right(q, :). count: a multiple of two. Even and odd q are summed apart, or each sum would wait for the one before; with AVX-512
+/// in the two halves of one register, by the same operations.
 inline void product(std::int64_t count, const double* left, const double* right, Lanes (&sum)[4]) {
+  const double* const end = left + 4 * count;
+#if defined(__AVX512F__)
   Eight s0{}, s1{}, s2{}, s3{};
-  for (const double* const end = left + 4 * count; left != end; left += 8, right += 8) {
+  for (; left != end; left += 8, right += 8) {
     const Eight f = *reinterpret_cast<const Eight*>(left), x = *reinterpret_cast<const Eight*>(right);
-    s0 += __builtin_shuffle(f, EightBits{0, 0, 0, 0, 4, 4, 4, 4}) * x;
-    s1 += __builtin_shuffle(f, EightBits{1, 1, 1, 1, 5, 5, 5, 5}) * x;
-    s2 += __builtin_shuffle(f, EightBits{2, 2, 2, 2, 6, 6, 6, 6}) * x;
-    s3 += __builtin_shuffle(f, EightBits{3, 3, 3, 3, 7, 7, 7, 7}) * x;
+    s0 += spread<0>(f) * x;
+    s1 += spread<1>(f) * x;
+    s2 += spread<2>(f) * x;
+    s3 += spread<3>(f) * x;
   }
   const auto both = [](const Eight& a) { return Lanes{a[0], a[1], a[2], a[3]} + Lanes{a[4], a[5], a[6], a[7]}; };
   sum[0] = both(s0), sum[1] = both(s1), sum[2] = both(s2), sum[3] = both(s3);
-}
 #else
-inline void product(std::int64_t count, const double* left, const double* right, Lanes (&sum)[4]) {
   Lanes s0{}, s1{}, s2{}, s3{}, t0{}, t1{}, t2{}, t3{};
-  for (const double* const end = left + 4 * count; left != end; left += 8, right += 8) {
+  for (; left != end; left += 8, right += 8) {
     const Lanes x = *reinterpret_cast<const Lanes*>(right), y = *reinterpret_cast<const Lanes*>(right + 4);
     s0 += left[0] * x;
     s1 += left[1] * x;
@@ -62,8 +71,8 @@ inline void product(std::int64_t count, const double* left, const double* right,
     t3 += left[7] * y;
   }
   sum[0] = s0 + t0, sum[1] = s1 + t1, sum[2] = s2 + t2, sum[3] = s3 + t3;
-}
 #endif
+}
 
 inline bool any_bit(const Bits& a) {
 #if defined(__AVX__)
