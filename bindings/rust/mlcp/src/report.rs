@@ -185,7 +185,7 @@ impl Report {
     }
 }
 
-/// A clock that was set back during a solve gives 0.
+/// To the nearest nanosecond. A clock that was set back during a solve gives 0.
 pub(crate) fn seconds(seconds: f64) -> Duration {
-    Duration::try_from_secs_f64(seconds).unwrap_or_default()
+    Duration::from_nanos((seconds * 1e9 + 0.5) as u64) // `as` ends at the range of u64; a conversion that can fail is five times as long
 }
