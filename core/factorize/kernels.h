@@ -41,8 +41,8 @@ struct DenseSweep {
   std::uint8_t* state;
 };
 
-/// The hot loops of sparse factors and of small dense ones, once for every x86-64 CPU and once for those with AVX2. Sums go into four interleaved parts in both, products are
-/// not fused: both give the same bits. Each returns the entries that it touched.
+/// The hot loops of sparse factors and of small dense ones, once for every x86-64 CPU, once for those with AVX2 and once for those with AVX-512. Sums go into the
+/// same parts in all, products are not fused: all give the same bits. What returns a count has touched so many entries.
 struct Kernels {
   /// y := y − C(:,j) y_j/d_j for the columns of a stretch that are in, in order.
   std::int64_t (*forward)(const FactorArrays&, const Stretch&, double* y);
