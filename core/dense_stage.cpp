@@ -98,6 +98,7 @@ bool DenseStage::solve(const SolveInput& input, const Mask* start, Watch& watch,
   }
   prepared_ = true;
   counts_.assign(count, Counts{});
+  released_.assign(count, 0);
   solved_.resize(count);
   parts_.resize(count);
   result.gamma.assign(problem.m(), 0.0);
@@ -120,7 +121,8 @@ bool DenseStage::solve(const SolveInput& input, const Mask* start, Watch& watch,
   for (int round = 0;; ++round) {
     errors = measure.end(problem, input.enabled, result.gamma.span(), input.contact_of_row, free, parts_.span());
     if (errors.largest() <= refined) break;
-    const bool helps = errors.largest() <= worth_it * std::exchange(before, errors.largest());
+    const bool helps = errors.largest() <= worth_it * std::exchange(before, errors.largest()) || std::ranges::find(released_, 1) != released_.end();
+    released_.assign(count, 0);
     if (round == most_refinements || !helps) {
       const double forgiven = forgiven_part * input.settings.tolerance;
       for (std::int32_t c = 0; c < count; ++c)
@@ -129,7 +131,7 @@ bool DenseStage::solve(const SolveInput& input, const Mask* start, Watch& watch,
       return false;
     }
     crew.run(count, tasks_, false, cost, [&](std::int32_t c) {
-      solved_[c] = !refine(c, measure, round > 0, result);
+      solved_[c] = !refine(c, measure, round > 0, zero_slack(input.settings), result);
       if (solved_[c]) return;
       stop(c, measure, result);
       look(c);
@@ -187,36 +189,60 @@ bool DenseStage::solve_island(const SolveInput& input, const Mask* start, Watch&
   DenseNewton newton(island, zero_slack(input.settings), counts_[c]);
   newton.start(input.problem, start);
   if (!newton.solve(start != nullptr, !input.follows_shifts())) return false;
+  take_answer(island, result);
+  return true;
+}
+
+void DenseStage::take_answer(const DenseIsland& island, Result& result) {
   DenseResponse::velocities(island);
   for (std::int32_t p = 0; p < island.n; ++p) result.v[island.velocity(p)] = island.x[p];
   for (std::int32_t i = 0; i < island.m; ++i) {
     result.gamma[island.row[i]] = island.gamma[i];
     result.mask.state[island.row[i]] = row_state(island.state[i]);
   }
+}
+
+/// A correction that would push an active row's impulse beyond its bound: the row rests there, and the island is solved again without it. Cut off at the bound,
+/// the impulse would not go with the velocities any more.      returns whether there was one.
+bool DenseStage::release(DenseIsland& s, double zero, Counts& counts, Result& result) {
+  bool any = false;
+  for (std::int32_t t = 0; t < *s.members; ++t) {
+    const std::int32_t i = s.member[t];
+    const double gamma = result.gamma[s.row[i]] + s.x_rows()[t];
+    if (gamma >= s.lo[i] && gamma <= s.hi[i]) continue;
+    const bool low = gamma < s.lo[i];
+    s.state[i] = low ? ActiveSet::at_lower : ActiveSet::at_upper;
+    s.gamma[i] = low ? s.lo[i] : s.hi[i];
+    any = true;
+  }
+  if (!any || !DenseNewton(s, zero, counts).solve_on()) return false;
+  take_answer(s, result);
   return true;
 }
 
 /// One step against the residuals that the measurement has found. Once momentum is rounding its residual is left out, as in Refinement: then the
 /// correction is as small as the rows' own residuals.  false: there is nothing to do.
-bool DenseStage::refine(std::int32_t c, const Measure& measure, bool rows_alone, Result& result) {
+bool DenseStage::refine(std::int32_t c, const Measure& measure, bool rows_alone, double zero, Result& result) {
   if (alone_[c]) return false;
   double momentum = 0, rows = 0;
   for (const std::int32_t j : components.velocities_of(c)) momentum = std::max(momentum, measure.velocity_error(j));
   for (const std::int32_t i : components.rows_of(c)) rows = std::max(rows, measure.error[i]);
   if (std::max(momentum, rows) <= refined) return false;
-  rows_alone |= momentum <= settled;
+  rows_alone = momentum <= (rows_alone ? refined : settled);
   if (interior_[c])
     correct_crowded(c, measure, rows_alone, result);
   else
-    correct(c, measure, rows_alone, result);
+    correct(c, measure, rows_alone, zero, result);
   return true;
 }
 
-void DenseStage::correct(std::int32_t c, const Measure& measure, bool rows_alone, Result& result) {
+void DenseStage::correct(std::int32_t c, const Measure& measure, bool rows_alone, double zero, Result& result) {
   DenseIsland& s = response_.island(c);
   for (std::int32_t p = 0; p < s.n; ++p) s.x[p] = rows_alone ? 0 : -measure.momentum_residual(s.velocity(p));
   for (std::int32_t t = 0; t < *s.members; ++t) s.x_rows()[t] = -measure.w[s.row[s.member[t]]];
   DenseResponse::correct(s);
+  released_[c] = release(s, zero, counts_[c], result);
+  if (released_[c]) return;
   for (std::int32_t p = 0; p < s.n; ++p) result.v[s.velocity(p)] += s.x[p];
   for (std::int32_t t = 0; t < *s.members; ++t) {
     const std::int32_t i = s.member[t];

@@ -12,7 +12,7 @@ namespace mlcp {
 /// cannot solve to rounding it leaves to Stage.
 class DenseStage {
  public:
-  explicit DenseStage(const Memory& m) : components(m), response_(m), normal_(m), interior_(m), alone_(m), left_out_(m), counts_(m), solved_(m), parts_(m), tasks_(m) {}
+  explicit DenseStage(const Memory& m) : components(m), response_(m), normal_(m), interior_(m), alone_(m), left_out_(m), counts_(m), solved_(m), released_(m), parts_(m), tasks_(m) {}
 
   Components components;
 
@@ -29,8 +29,10 @@ class DenseStage {
   bool solve_crowded(const SolveInput& input, const Mask* start, Watch& watch, std::int32_t c, Result& result);
   bool solve_alone(const Problem& problem, std::int32_t c, Result& result);
   bool is_alone(std::int32_t c) const;
-  bool refine(std::int32_t c, const Measure& measure, bool rows_alone, Result& result);
-  void correct(std::int32_t c, const Measure& measure, bool rows_alone, Result& result);
+  bool refine(std::int32_t c, const Measure& measure, bool rows_alone, double zero, Result& result);
+  void correct(std::int32_t c, const Measure& measure, bool rows_alone, double zero, Result& result);
+  static bool release(DenseIsland& island, double zero, Counts& counts, Result& result);
+  static void take_answer(const DenseIsland& island, Result& result);
   void correct_crowded(std::int32_t c, const Measure& measure, bool rows_alone, Result& result);
   bool right_enough(std::int32_t c, double forgiven) const;
   void stop(std::int32_t c, const Measure& measure, Result& result);
@@ -47,6 +49,7 @@ class DenseStage {
   Array<std::uint8_t> left_out_;  // by component: one of these, and so not in response_
   Array<Counts> counts_;        // by component
   Array<std::uint8_t> solved_;  // likewise, to begin with; then whether nothing was left to refine
+  Array<std::uint8_t> released_;  // likewise: the last refinement has solved it again
   Array<Measure::Part> parts_;  // likewise
   Array<std::int32_t> tasks_;   // first component of each task, and the end
 };

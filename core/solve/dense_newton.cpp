@@ -129,6 +129,8 @@ bool DenseNewton::full_steps(double drop, int patience) {
   return false;
 }
 
+bool DenseNewton::solve_on() { return full_steps(dependent_pivot, short_patience); }
+
 bool DenseNewton::solve(bool warm, bool pivots) {
   if (!warm || impulses_) guess(warm ? most_sweeps_on : most_sweeps);
   if (too_many()) return false;

@@ -18,6 +18,8 @@ class DenseNewton {
   /// before: start(). after: the active set, its factor and its impulses.  false: given up.
   /// pivots: rows that depend on others may rest, wherever that leaves the load.
   bool solve(bool warm, bool pivots);
+  /// The same from the states and impulses as they are.
+  bool solve_on();
 
  private:
   bool too_many() const;
