@@ -35,6 +35,8 @@ constexpr double worth_it = 0.5;
 constexpr double forgiven_part = 0.1;
 /// Of the terms of a momentum: a thousandth of a rounding.
 constexpr double lost = 2.5e-19;
+/// A velocity with so many times the momentum of an impulse, or less, has no other cause.
+constexpr double brought_about = 4;
 /// |w| up to this, relative to the scale of its error: the row holds.
 constexpr double holds = 1e-9;
 
@@ -133,7 +135,7 @@ bool DenseStage::solve(const SolveInput& input, const Mask* start, Watch& watch,
     crew.run(count, tasks_, false, cost, [&](std::int32_t c) {
       solved_[c] = !refine(c, measure, round > 0, zero_slack(input.settings), result);
       if (solved_[c]) return;
-      stop(c, measure, result);
+      stop(problem, c, measure, result);
       look(c);
     });
     for (std::int32_t c = 0; c < count; ++c) counts.refinements += !solved_[c];
@@ -265,7 +267,18 @@ void DenseStage::correct_crowded(std::int32_t c, const Measure& measure, bool ro
 
 /// As Refinement::stop: a velocity far below the rounding of its momentum is 0. A row without other terms is off by its whole size, however small steps make
 /// that, and each of them moves the velocities of all rows a little.
-void DenseStage::stop(std::int32_t c, const Measure& measure, Result& result) {
+/// So is an impulse that no slack feels, and velocities that it alone has brought about: steps would make both smaller for ever, not 0.
+void DenseStage::stop(const Problem& problem, std::int32_t c, const Measure& measure, Result& result) {
+  const SparseView jacobian = problem.jacobian_view();
+  for (const std::int32_t i : components.rows_of(c)) {
+    const double gamma = std::abs(result.gamma[i]);
+    if (gamma == 0 || gamma * measure.a[i] > lost * measure.scale[i] || problem.lo[i] > 0 || problem.hi[i] < 0) continue;
+    result.gamma[i] = 0;
+    for (std::int32_t t = jacobian.pointers[i]; t < jacobian.pointers[i + 1]; ++t) {
+      const std::int32_t j = jacobian.indices[t];
+      if (!problem.prescribed(j) && std::abs(measure.mass(j) * result.v[j]) <= brought_about * std::abs(jacobian.values[t] * gamma)) result.v[j] = 0;
+    }
+  }
   for (const std::int32_t j : components.velocities_of(c)) {
     if (std::abs(measure.mass(j) * result.v[j]) <= lost * measure.momentum_scale(j)) result.v[j] = 0;
   }

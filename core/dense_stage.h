@@ -35,7 +35,7 @@ class DenseStage {
   static void take_answer(const DenseIsland& island, Result& result);
   void correct_crowded(std::int32_t c, const Measure& measure, bool rows_alone, Result& result);
   bool right_enough(std::int32_t c, double forgiven) const;
-  void stop(std::int32_t c, const Measure& measure, Result& result);
+  void stop(const Problem& problem, std::int32_t c, const Measure& measure, Result& result);
   void mark_redundant(std::int32_t c, const Measure& measure, Result& result);
 
   double density(const Problem& problem, std::int32_t c) const;
