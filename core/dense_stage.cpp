@@ -123,7 +123,9 @@ bool DenseStage::solve(const SolveInput& input, const Mask* start, Watch& watch,
   for (int round = 0;; ++round) {
     errors = measure.end(problem, input.enabled, result.gamma.span(), input.contact_of_row, free, parts_.span());
     if (errors.largest() <= refined) break;
-    const bool helps = errors.largest() <= worth_it * std::exchange(before, errors.largest()) || std::ranges::find(released_, 1) != released_.end();
+    // a row at rest has the error 1 until it is exactly at rest, which takes two rounds
+    const double enough = worth_it * std::exchange(before, errors.largest());
+    const bool helps = round < 2 || errors.largest() <= enough || std::ranges::find(released_, 1) != released_.end();
     released_.assign(count, 0);
     if (round == most_refinements || !helps) {
       const double forgiven = forgiven_part * input.settings.tolerance;
