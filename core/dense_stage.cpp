@@ -207,7 +207,7 @@ void DenseStage::take_answer(const DenseIsland& island, Result& result) {
 }
 
 /// A correction that would push an active row's impulse beyond its bound: the row rests there, and the island is solved again without it. Cut off at the bound,
-/// the impulse would not go with the velocities any more.      returns whether there was one.
+/// the impulse would not go with the velocities any more.      returns whether there was one; where that leads nowhere the answer stays as it was.
 bool DenseStage::release(DenseIsland& s, double zero, Counts& counts, Result& result) {
   bool any = false;
   for (std::int32_t t = 0; t < *s.members; ++t) {
@@ -219,9 +219,8 @@ bool DenseStage::release(DenseIsland& s, double zero, Counts& counts, Result& re
     s.gamma[i] = low ? s.lo[i] : s.hi[i];
     any = true;
   }
-  if (!any || !DenseNewton(s, zero, counts).solve_on()) return false;
-  take_answer(s, result);
-  return true;
+  if (any && DenseNewton(s, zero, counts).solve_on()) take_answer(s, result);
+  return any;
 }
 
 /// One step against the residuals that the measurement has found. Once momentum is rounding its residual is left out, as in Refinement: then the

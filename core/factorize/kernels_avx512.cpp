@@ -2,14 +2,11 @@
 #include "factorize/kernels.h"
 
 #if defined(__AVX512F__)
-#include "factorize/kernel_loops.h"
-#include "factorize/panel_loops.h"
+#include "factorize/kernel_table.h"
 
 namespace mlcp {
 
-const Kernels avx512_kernels{forward,       combine,        products,       backward,    rank_one,      panel_forward, block_eliminate,
-                             block_forward, block_backward, panel_add, panel_scale, panel_product, tiles_square,
-                             tiles_times, tiles_transposed, impulse_sweep, column_products, sweep};
+const Kernels avx512_kernels = kernel_table;
 
 }  // namespace mlcp
 #endif
