@@ -105,7 +105,7 @@ bool DenseStage::solve(const SolveInput& input, const Mask* start, Watch& watch,
   parts_.resize(count);
   result.gamma.assign(problem.m(), 0.0);
   result.mask.state.assign(problem.m(), MLCP_ROW_DISABLED);
-  const Errors free = measure.begin(problem, input.enabled, components.free_velocity.span(), result.v.span());
+  const Errors free = measure.begin(problem, input.enabled, components.free_velocities.span(), result.v.span());
   const auto cost = [&](std::int32_t c) { return 10 + std::int64_t{components.velocity_count(c)} * (components.velocity_count(c) + components.row_count(c)); };
   const auto look = [&](std::int32_t c) {
     parts_[c] = measure.part(problem, components.velocities_of(c), components.rows_of(c), result.v.span(), result.gamma.span());

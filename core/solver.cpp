@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "dense_stage.h"
+#include "factorize/kernels.h"
 #include "memory/lazy.h"
 #include "measure/errors.h"
 #include "solve/extended_simplex.h"
@@ -66,7 +67,7 @@ struct Solver::State {
   void solve_large_again(const SolveInput& input, const Mask& start, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts);
   void take_answer(const SolveInput& input, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts);
   void find_row_islands(const SolveInput& input);
-  void solve_free_velocities(const Problem& problem, const Array<std::int32_t>& free);
+  void solve_free_velocities(const Problem& problem, const VelocityRuns& free);
   void read_ends(const Stage& stage, const Problem& problem, bool only_rows, mlcp_report& report, Counts& counts);
   void take_certificate(const Workspace& work, const Island& island, std::int32_t index, std::int32_t rows);
   void take_given_velocities(const Problem& problem);
@@ -130,15 +131,13 @@ void Solver::analyze(const Problem& problem, const Mask* enabled) {
 }
 
 /// v = k / M where nothing couples to anything.
-void Solver::State::solve_free_velocities(const Problem& problem, const Array<std::int32_t>& free) {
-  for (const std::int32_t j : free) {
-    const double mass = problem.mass.values[problem.mass.pointers[j]];
-    if (mass > 0) {
-      result.v[j] = problem.momentum[j] / mass;
-    } else {
-      indefinite = j;
-      result.v[j] = 0;
-    }
+void Solver::State::solve_free_velocities(const Problem& problem, const VelocityRuns& free) {
+  const Kernels& kernels = kernels_for_this_cpu();
+  for (const auto [first, last] : free.span()) {
+    const double* const mass = problem.mass.values.data() + problem.mass.pointers[first];
+    if (kernels.diagonal_solve(last - first, mass, problem.momentum.data() + first, result.v.data() + first)) continue;
+    for (std::int32_t j = first; j < last; ++j)
+      if (!(mass[j - first] > 0)) indefinite = j;
   }
 }
 
@@ -347,7 +346,7 @@ bool Solver::State::solve_small(const SolveInput& input, const Mask* start, Watc
   const Problem& problem = input.problem;
   clear_result(problem);
   take_given_velocities(problem);
-  solve_free_velocities(problem, dense.components.free_velocity);
+  solve_free_velocities(problem, dense.components.free_velocities);
   if (indefinite >= 0 || !dense.solve(input, start, watch, crew, measure, result, errors, counts)) return false;
   result.w.assign(measure.w.span());
   result.island_outcome.assign(dense.components.count(), MLCP_SOLVED);
@@ -397,7 +396,7 @@ void Solver::State::solve_large_again(const SolveInput& input, const Mask& start
 void Solver::State::take_answer(const SolveInput& input, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts) {
   result.island_outcome.assign(main->analysis.symbolic.islands.size(), MLCP_SOLVED);
   read_ends(*main, input.problem, false, report, counts);
-  solve_free_velocities(input.problem, main->analysis.ordering.free_velocity);
+  solve_free_velocities(input.problem, main->analysis.ordering.free_velocities);
   collect(input);
   rescue(input, watch, crew, report, counts);
   judge(input);

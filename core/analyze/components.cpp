@@ -56,19 +56,42 @@ void Components::set_free_apart(const Problem& problem) {
   touched_.assign(n, 0);
   for (std::int32_t i = 0; i < m; ++i)
     for (std::int32_t t = jacobian.pointers[i]; t < jacobian.pointers[i + 1] && enabled_[i]; ++t) touched_[jacobian.indices[t]] = 1;
-  free_velocity.resize(n);
-  coupled_.resize(n);
-  std::int32_t *free = free_velocity.data(), *coupled = coupled_.data();
-  for (std::int32_t j = 0; j < n; ++j) {  // hardly a branch that changes: both kinds come in turns
-    const std::int32_t t = mass.pointers[j];
-    const bool diagonal = mass.pointers[j + 1] - t == 1 && mass.indices[t] == j;  // an entry alone may stand off it, as a zero
-    const bool alone = !touched_[j] & diagonal;
-    *free = *coupled = j;
-    free += alone & !fixed_[j];
-    coupled += !alone & !fixed_[j];
+  free_velocities.clear();
+  coupled_.clear();
+  coupled_.reserve(n);
+  for (const Body& body : problem.bodies) {
+    if (body.prescribed) continue;
+    const std::int32_t first = body.offset, last = first + body.dimension;
+    if (body.diagonal) {
+      split(first, last);
+      continue;
+    }
+    for (std::int32_t j = first; j < last; ++j) {
+      const std::int32_t t = mass.pointers[j];
+      // an entry alone may stand off the diagonal, as a zero
+      if (!touched_[j] && mass.pointers[j + 1] - t == 1 && mass.indices[t] == j)
+        free_velocities.add(j, j + 1);
+      else
+        coupled_.push_back(j);
+    }
   }
-  free_velocity.resize(free - free_velocity.data());
-  coupled_.resize(coupled - coupled_.data());
+}
+
+/// Velocities of a diagonal mass: those that rows touch are coupled, runs between them are free.
+void Components::split(std::int32_t first, std::int32_t last) {
+  const std::uint8_t* const touched = touched_.data();
+  const auto none_of_eight = [&](std::int32_t j) {
+    std::uint64_t eight;
+    std::memcpy(&eight, touched + j, sizeof eight);
+    return eight == 0;
+  };
+  for (std::int32_t j = first; j < last;) {
+    const std::int32_t begin = j;
+    while (j + 8 <= last && none_of_eight(j)) j += 8;
+    while (j < last && !touched[j]) ++j;
+    if (j > begin) free_velocities.add(begin, j);
+    for (; j < last && touched[j]; ++j) coupled_.push_back(j);
+  }
 }
 
 /// Velocities that are in coupled_ at one time and not at another have a diagonal mass, which joins nothing.

@@ -1,6 +1,7 @@
 #pragma once
 #include "assemble/mask.h"
 #include "assemble/pattern_copy.h"
+#include "assemble/velocity_runs.h"
 
 namespace mlcp {
 
@@ -9,12 +10,12 @@ namespace mlcp {
 class Components {
  public:
   explicit Components(const Memory& m)
-      : velocity_pointers(m), velocities(m), row_pointers(m), rows(m), free_velocity(m), of_row(m), parent_(m), index_(m), joined_(m), last_pointers_(m), last_velocities_(m), coupled_(m), touched_(m), fixed_(m),
+      : velocity_pointers(m), velocities(m), row_pointers(m), rows(m), free_velocities(m), of_row(m), parent_(m), index_(m), joined_(m), last_pointers_(m), last_velocities_(m), coupled_(m), touched_(m), fixed_(m),
         enabled_(m), pattern_(m) {}
 
   Array<std::int32_t> velocity_pointers, velocities;  ///< component → velocities, ascending
   Array<std::int32_t> row_pointers, rows;             ///< component → rows, ascending
-  Array<std::int32_t> free_velocity;                  ///< a diagonal mass that no row touches: in no component
+  VelocityRuns free_velocities;                       ///< a diagonal mass that no row touches: in no component
   Array<std::int32_t> of_row;                         ///< m: component, −1 for disabled rows
 
   std::int32_t count() const { return static_cast<std::int32_t>(velocity_pointers.size()) - 1; }
@@ -34,6 +35,7 @@ class Components {
  private:
   bool covers(const Problem& problem, const Mask* enabled) const;
   void set_free_apart(const Problem& problem);
+  void split(std::int32_t first, std::int32_t last);
   bool masses_stay(const Problem& problem) const;
   bool prescribes_the_same(const Problem& problem) const;
   void join_masses(const Problem& problem);

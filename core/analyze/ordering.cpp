@@ -8,12 +8,12 @@ void Ordering::collect_free(const Problem& problem, const Selection& selection) 
   for (std::int32_t i = 0; i < problem.m(); ++i)
     if (selection.row[i])
       for (std::int32_t t = jacobian.pointers[i]; t < jacobian.pointers[i + 1]; ++t) placed_[jacobian.indices[t]] = 1;
-  free_velocity.clear();
+  free_velocities.clear();
   for (std::int32_t j = 0; j < problem.n(); ++j) {
     const bool diagonal = mass.pointers[j + 1] - mass.pointers[j] == 1 && mass.indices[mass.pointers[j]] == j;
     const bool free = selection.velocity[j] && diagonal && !placed_[j];
     placed_[j] = free;
-    if (free) free_velocity.push_back(j);
+    if (free) free_velocities.add(j, j + 1);
   }
 }
 
@@ -111,7 +111,7 @@ void Ordering::carry(const Problem& problem, const Selection& selection, const C
 
 void Ordering::clear() {
   order.clear();
-  free_velocity.clear();
+  free_velocities.clear();
 }
 
 bool Ordering::accept(const Problem& problem, const Selection& selection, const Crowding& crowding, std::span<const std::int32_t> imposed) {

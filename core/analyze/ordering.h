@@ -4,6 +4,7 @@
 #include "analyze/lineage.h"
 #include "analyze/minimum_degree.h"
 #include "analyze/quotient_graph.h"
+#include "assemble/velocity_runs.h"
 
 namespace mlcp {
 
@@ -12,7 +13,7 @@ namespace mlcp {
 /// with bodies, the paper has them last). In crowded islands any order will do.
 class Ordering {
  public:
-  explicit Ordering(const Memory& m) : order(m), free_velocity(m), graph_(m), dissection_(m), degree_(m), lineage_(m), placed_(m), members_(m), member_pointers_(m), key_(m) {}
+  explicit Ordering(const Memory& m) : order(m), free_velocities(m), graph_(m), dissection_(m), degree_(m), lineage_(m), placed_(m), members_(m), member_pointers_(m), key_(m) {}
 
   /// throws: Stopped
   void compute(const Problem& problem, const Selection& selection, const Crowding& crowding, const Poll& poll = {});
@@ -30,7 +31,7 @@ class Ordering {
   void clear();
 
   Array<std::int32_t> order;          ///< nodes
-  Array<std::int32_t> free_velocity;  ///< velocities with a diagonal mass that no row touches: v = k / M, not in the order
+  VelocityRuns free_velocities;       ///< with a diagonal mass, and no row touches them: v = k / M, not in the order
 
  private:
   void collect_free(const Problem& problem, const Selection& selection);

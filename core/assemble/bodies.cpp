@@ -25,7 +25,18 @@ void check_sparse_diagonal(const char* name, std::span<const double> diagonal) {
     if (diagonal[j] < 0) throw Error(MLCP_ERROR_ARGUMENT, "%s: diagonal entry %d = %.17g is negative", name, static_cast<int>(j), diagonal[j]);
 }
 
+void check_diagonal(const char* name, const double* values, std::int32_t size) {
+  check_finite(name, values, size);
+  check_sparse_diagonal(name, {values, static_cast<std::size_t>(size)});
+}
+
 void set_sparse_mass(Problem& problem, const Body& body, std::int32_t id, const double* values, std::int64_t count) {
+  if (body.diagonal) {
+    check_length("count", count, body.dimension);
+    check_diagonal("mass", values, body.dimension);
+    std::copy_n(values, count, problem.mass.values.data() + problem.mass.pointers[body.offset]);
+    return;
+  }
   const std::int64_t slot = problem.mass_slot_start[id];
   check_length("count", count, (problem.mass_slot_start[id + 1] - slot) / 2);
   const std::int32_t* pointers = problem.mass.pointers.data() + body.offset;
@@ -44,6 +55,25 @@ void set_sparse_mass(Problem& problem, const Body& body, std::int32_t id, const 
   expand_values("mass", pattern, values, scratch.data(), out);
   check_sparse_diagonal("mass", scratch.span().first(body.dimension));
   std::copy(out.begin(), out.end(), mass);
+}
+
+/// The pattern of a diagonal, which the caller need not have.
+std::int32_t add_diagonal(Problem& problem, const SymmetricInput& mass) {
+  check_diagonal("values", mass.values, mass.size);
+  choose_ids(problem, 1);
+  open_bodies(problem, {mass.size, mass.size, 0});
+  const std::int32_t id = problem.work.index[0];
+  Body& body = problem.bodies[id];
+  body.sparse = 1 + mass.triangle;
+  body.diagonal = 1;
+  auto& [pointers, indices, numbers] = problem.mass;
+  const std::int32_t entry = pointers[body.offset];
+  for (std::int32_t j = 0; j < mass.size; ++j) {
+    pointers[body.offset + j] = entry + j;
+    indices[entry + j] = body.offset + j;
+  }
+  std::copy_n(mass.values, mass.size, numbers.data() + entry);
+  return id;
 }
 
 }  // namespace
@@ -73,8 +103,10 @@ void bodies_add(Problem& problem, std::int32_t count, std::int32_t dimension, co
   }
   choose_ids(problem, count);
   open_bodies(problem, {dimension, size, 0});
+  const std::int32_t diagonal = dimension == 1;
   for (std::int32_t b = 0; b < count; ++b) {
     const std::int32_t id = problem.work.index[b], first = problem.bodies[id].offset, entry = problem.mass.pointers[first];
+    problem.bodies[id].diagonal = diagonal;
     for (std::int32_t j = 0; j < dimension; ++j) {
       problem.mass.pointers[first + j] = entry + j * dimension;
       for (std::int32_t i = 0; i < dimension; ++i) problem.mass.indices[entry + j * dimension + i] = first + i;
@@ -89,7 +121,9 @@ std::int32_t body_add_sparse(Problem& problem, std::int32_t dimension, const std
                              const std::int32_t* row_indices, const double* values, mlcp_triangle triangle) {
   if (dimension < 1) throw Error(MLCP_ERROR_ARGUMENT, "dimension = %d is not positive", dimension);
   EditWorkspace& work = problem.work;
-  expand({dimension, column_pointers, row_indices, values, triangle}, work);
+  const SymmetricInput mass{dimension, column_pointers, row_indices, values, triangle};
+  if (is_diagonal(mass)) return add_diagonal(problem, mass);
+  expand(mass, work);
   check_sparse_diagonal("values", work.value.span());
   choose_ids(problem, 1);
   open_bodies(problem, {dimension, std::int64_t(work.expanded.values.size()), std::int64_t(work.slot.size())});

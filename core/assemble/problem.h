@@ -34,6 +34,7 @@ struct Body {
   std::int32_t dimension = 0;
   std::int32_t prescribed = 0; ///< 1: the velocity is given
   std::int32_t sparse = 0;     ///< 0: dense mass; else 1 + the mlcp_triangle that the caller stores
+  std::int32_t diagonal = 0;   ///< 1: of every column the diagonal entry is there and nothing else, zeros included
 };
 
 /// Of a pyramid: directions 6 µrad apart at least, whose products with small numbers are in range.
@@ -79,7 +80,7 @@ struct Problem {
   Array<Body> bodies;            ///< indexed by id
   Array<std::int32_t> body_of;   ///< n: velocity → body id
   SparseArrays mass;
-  /// For sparse bodies: the caller's value e of body b stands at mass_slot[s + 2e] and its mirror at mass_slot[s + 2e + 1]
+  /// For sparse bodies that are not diagonal: the caller's value e of body b stands at mass_slot[s + 2e] and its mirror at mass_slot[s + 2e + 1]
   /// (the same on the diagonal), s = mass_slot_start[b], positions relative to mass.pointers[offset].
   Array<std::int32_t> mass_slot;
   Array<std::int64_t> mass_slot_start;  ///< one more than there are ids

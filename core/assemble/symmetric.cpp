@@ -45,19 +45,6 @@ bool take_sorted(const SymmetricInput& a, std::int32_t entries, EditWorkspace& w
   if (a.triangle != MLCP_FULL || a.size == 0) return false;  // of a size of 0, column_pointers may be null
   const std::int32_t *start = a.column_pointers, *rows = a.row_indices;
   std::int32_t* slot = work.slot.data();
-  const auto taken = [&] {
-    work.expanded.pointers.assign({start, std::size_t(a.size) + 1});
-    work.expanded.indices.assign({rows, std::size_t(entries)});
-    work.expanded.values.resize(entries);
-    return true;
-  };
-  std::int32_t off = entries - a.size;  // 0: a diagonal matrix
-  if (off == 0)
-    for (std::int32_t j = 0; j < a.size; ++j) off |= (start[j] ^ j) | (rows[j] ^ j);
-  if (off == 0) {
-    for (std::int32_t e = 0; e < entries; ++e) slot[2 * e] = slot[2 * e + 1] = e;
-    return taken();
-  }
   work.index.resize(a.size);
   std::int32_t* const next = work.index.data();  // of each column: its first entry whose mirror was not met
   std::copy(start, start + a.size, next);
@@ -79,7 +66,10 @@ bool take_sorted(const SymmetricInput& a, std::int32_t entries, EditWorkspace& w
       slot[2 * mirror + 1] = e;
     }
   }
-  return taken();
+  work.expanded.pointers.assign({start, std::size_t(a.size) + 1});
+  work.expanded.indices.assign({rows, std::size_t(entries)});
+  work.expanded.values.resize(entries);
+  return true;
 }
 
 /// slot[2e + 1]: the caller's entry (j, i) for his entry e at (i, j); none where there is none.
@@ -148,16 +138,17 @@ void place(const SymmetricInput& a, EditWorkspace& work) {
 std::uint64_t difference(double a, double b) { return std::bit_cast<std::uint64_t>(a - b); }
 bool equal(std::uint64_t differences) { return differences << 1 == 0; }
 
-/// Of a diagonal matrix: none is negative, all are finite.
-bool mirrored_diagonal(const SymmetricPattern& a, const double* values) {
-  std::int32_t off = 0;  // two loops, each over entries of one size
-  for (std::int32_t e = 0; e < a.count; ++e) off |= a.slot[2 * e + 1] ^ e;
-  bool finite = off == 0;
-  for (std::int64_t e = 0; e < a.count; ++e) finite &= (values[e] >= 0) & (values[e] < infinity);
-  return finite;
-}
-
 }  // namespace
+
+bool is_diagonal(const SymmetricInput& a) {
+  if (a.triangle < MLCP_FULL || a.triangle > MLCP_UPPER || a.size == 0 || !a.column_pointers || !a.row_indices || !a.values) return false;
+  if (a.column_pointers[a.size] != a.size) return false;
+  std::int32_t off = 0;
+  for (std::int32_t j = 0; j < a.size; ++j) off |= a.column_pointers[j] ^ j;
+  if (off) return false;
+  for (std::int32_t j = 0; j < a.size; ++j) off |= a.row_indices[j] ^ j;
+  return off == 0;
+}
 
 void expand(const SymmetricInput& input, EditWorkspace& work) {
   const std::int32_t entries = check_arrays(input);
@@ -186,7 +177,6 @@ void expand(const SymmetricInput& input, EditWorkspace& work) {
 
 bool mirrored(const SymmetricPattern& a, const double* values) {
   if (a.triangle != MLCP_FULL) return false;
-  if (a.count == a.size && mirrored_diagonal(a, values)) return true;
   std::int64_t paired = 0;
   for (std::int32_t j = 0; j < a.size; ++j) {
     const std::int32_t begin = a.pointers[j] - a.pointers[0], end = a.pointers[j + 1] - a.pointers[0];

@@ -12,6 +12,10 @@ struct SymmetricInput {
   mlcp_triangle triangle;
 };
 
+/// Whether every column has its diagonal entry and nothing else.  false: or something is wrong with the arrays.
+/// cost: O(size), as vectors.
+bool is_diagonal(const SymmetricInput& input);
+
 /// Both triangles, in work.expanded: the caller's entries in the caller's order within a column, then the mirrors that are
 /// missing. work.slot as Problem::mass_slot. work.value: the diagonal; empty if nothing negative is known to be in it.
 /// cost:  O(entries).      fails: Error, bad_alloc; nothing but the workspace has changed.

@@ -1,3 +1,4 @@
+#pragma once
 /// The loops of Kernels, compiled once by each kernels_*.cpp with its own instruction set. Everything is local to the file that includes it, and
 /// nothing inline from elsewhere is used: a linker must not keep an AVX2 copy for all.
 #include <cstdint>

@@ -41,7 +41,7 @@ struct DenseSweep {
   std::uint8_t* state;
 };
 
-/// The hot loops of sparse factors and of small dense ones, once for every x86-64 CPU, once for those with AVX2 and once for those with AVX-512. Sums go into the
+/// The hot loops of sparse factors, of small dense ones and of diagonal masses, once for every x86-64 CPU, once for those with AVX2 and once for those with AVX-512. Sums go into the
 /// same parts in all, products are not fused: all give the same bits. What returns a count has touched so many entries.
 struct Kernels {
   /// y := y − C(:,j) y_j/d_j for the columns of a stretch that are in, in order.
@@ -85,6 +85,11 @@ struct Kernels {
   /// A principal pivot on p of the symmetric tableau T, as Tableau::sweep: the lower triangle, in rows of `stride` entries, a multiple of four. sign: 1
   /// takes p in, −1 out. column: room for `stride` entries.     cost: size² / 2
   void (*sweep)(std::int64_t size, std::int64_t stride, double* t, std::int64_t p, double sign, double* column);
+
+  /// x := D⁻¹ k of a diagonal D.  returns whether all of it is positive; x is 0 where it is not.
+  bool (*diagonal_solve)(std::int64_t count, const double* d, const double* k, double* x);
+  /// Whether |dx − k| ≤ bound (|dx| + |k|) < ∞ for all entries; largest := max(largest, |dx − k|).
+  bool (*diagonal_within)(std::int64_t count, const double* d, const double* x, const double* k, double bound, double* largest);
 };
 
 /// The table for the CPU this runs on.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "factorize/kernels.h"
+
 namespace mlcp {
 namespace {
 
@@ -68,18 +70,23 @@ void Measure::momentum(const Problem& problem, std::span<const std::int32_t> vel
 }
 
 /// momentum() of velocities whose mass is one entry and that no row touches. Nobody asks for their numbers one by one.
-void Measure::free_momentum(const Problem& problem, std::span<const std::int32_t> velocities, std::span<const double> v, Errors& e) const {
-  if (!velocities.empty()) e.worst_velocity = velocities[0];
-  for (const std::int32_t j : velocities) {
-    const double k = problem.momentum[j], term = problem.mass.values[problem.mass.pointers[j]] * v[j];
-    const double absolute = std::abs(term - k), size = std::abs(k) + std::abs(term);
-    if (!(absolute <= e.momentum_residual)) e.momentum_residual = or_infinite(absolute);
-    if (absolute <= e.momentum * size && size < infinity) continue;  // without a division
-    const double relative = relative_error(or_infinite(absolute), size);
-    if (!(relative > e.momentum)) continue;
-    e.worst_velocity = j;
-    e.momentum = relative;
-  }
+void Measure::free_momentum(const Problem& problem, std::span<const VelocityRuns::Run> runs, std::span<const double> v, Errors& e) const {
+  constexpr std::int32_t some = 32;  // at a time, without divisions where none is worse than what was met before
+  const Kernels& kernels = kernels_for_this_cpu();
+  if (!runs.empty()) e.worst_velocity = runs[0].first;
+  for (const auto [first, last] : runs)
+    for (std::int32_t begin = first; begin < last; begin += some) {
+      const std::int32_t count = std::min(some, last - begin);
+      const double *const mass = problem.mass.values.data() + problem.mass.pointers[begin], *const k = problem.momentum.data() + begin, *const x = v.data() + begin;
+      if (kernels.diagonal_within(count, mass, x, k, e.momentum, &e.momentum_residual)) continue;
+      for (std::int32_t i = 0; i < count; ++i) {
+        const double term = mass[i] * x[i], absolute = or_infinite(std::abs(term - k[i])), relative = relative_error(absolute, std::abs(k[i]) + std::abs(term));
+        e.momentum_residual = std::max(e.momentum_residual, absolute);
+        if (!(relative > e.momentum)) continue;
+        e.worst_velocity = begin + i;
+        e.momentum = relative;
+      }
+    }
 }
 
 double Measure::velocity_error(std::int32_t j) const {
@@ -152,7 +159,7 @@ void Measure::take_maxima(const Mask* enabled, Errors& e) const {
     if (!enabled || enabled->state[i] != MLCP_ROW_DISABLED) take_row(i, e);
 }
 
-Errors Measure::begin(const Problem& problem, const Mask* enabled, std::span<const std::int32_t> free_velocity, std::span<const double> v) {
+Errors Measure::begin(const Problem& problem, const Mask* enabled, std::span<const VelocityRuns::Run> free_velocities, std::span<const double> v) {
   const std::int32_t n = problem.n(), m = problem.m();
   for (Array<double>* by_velocity : {&sum_, &size_, &diagonal_, &reach_, &inverse_}) by_velocity->resize(n);
   diagonal_at_.resize(n, -1);
@@ -168,7 +175,7 @@ Errors Measure::begin(const Problem& problem, const Mask* enabled, std::span<con
     }
   }
   Errors e;
-  free_momentum(problem, free_velocity, v, e);
+  free_momentum(problem, free_velocities, v, e);
   return e;
 }
 

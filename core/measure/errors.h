@@ -3,6 +3,7 @@
 
 #include "assemble/mask.h"
 #include "assemble/problem.h"
+#include "assemble/velocity_runs.h"
 
 namespace mlcp {
 
@@ -36,7 +37,7 @@ class Measure {
   };
   /// The same by parts that share no dynamic velocity, each of which may be measured on a thread of its own. Neither order nor threads change a bit.
   /// begin: room, prescribed velocities, and the errors of those that stand alone.  end: from those and from all parts; what rows share.
-  Errors begin(const Problem& problem, const Mask* enabled, std::span<const std::int32_t> free_velocity, std::span<const double> v);
+  Errors begin(const Problem& problem, const Mask* enabled, std::span<const VelocityRuns::Run> free_velocities, std::span<const double> v);
   Part part(const Problem& problem, std::span<const std::int32_t> velocities, std::span<const std::int32_t> rows, std::span<const double> v,
             std::span<const double> gamma);
   Errors end(const Problem& problem, const Mask* enabled, std::span<const double> gamma, std::span<const std::int32_t> contact_of_row, Errors free,
@@ -62,7 +63,7 @@ class Measure {
   /// Mv − Jᵀγ − k and its terms, Mⱼⱼ, maxima.
   void momentum(const Problem& problem, std::span<const std::int32_t> velocities, std::span<const std::int32_t> rows, std::span<const double> v,
                 std::span<const double> gamma, Errors& e);
-  void free_momentum(const Problem& problem, std::span<const std::int32_t> velocities, std::span<const double> v, Errors& e) const;
+  void free_momentum(const Problem& problem, std::span<const VelocityRuns::Run> runs, std::span<const double> v, Errors& e) const;
   /// w, scale and a.  before: momentum() of their velocities.
   void rows(const Problem& problem, std::span<const std::int32_t> rows, std::span<const double> v, std::span<const double> gamma);
   /// residual and error.

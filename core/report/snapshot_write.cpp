@@ -30,8 +30,8 @@ void write_settings(const Settings& settings, ByteWriter& to) {
 void write_sparse_mass(const Problem& problem, const Body& body, std::int32_t id, ByteWriter& to) {
   const std::int32_t first = problem.mass.pointers[body.offset];
   const std::int64_t slot = problem.mass_slot_start[id];
-  const auto entries = static_cast<std::int32_t>((problem.mass_slot_start[id + 1] - slot) / 2);
-  const auto position = [&](std::int32_t e) { return problem.mass_slot[slot + 2 * std::int64_t(e)]; };
+  const auto entries = body.diagonal ? body.dimension : static_cast<std::int32_t>((problem.mass_slot_start[id + 1] - slot) / 2);
+  const auto position = [&](std::int32_t e) { return body.diagonal ? e : problem.mass_slot[slot + 2 * std::int64_t(e)]; };
   to.u32(entries);
   to.i32(0);
   for (std::int32_t j = 0, e = 0; j < body.dimension; ++j) {

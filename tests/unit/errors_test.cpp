@@ -224,7 +224,7 @@ TEST(Errors, PartsInAnyOrderAddUpToTheWhole) {
     components.update(p, &enabled);
     mlcp::Measure whole{mlcp::Memory()}, parts{mlcp::Memory()};
     const mlcp::Errors expected = whole.run(p, &enabled, v, gamma, contact);
-    const mlcp::Errors free = parts.begin(p, &enabled, components.free_velocity.span(), v);
+    const mlcp::Errors free = parts.begin(p, &enabled, components.free_velocities.span(), v);
     std::vector<mlcp::Measure::Part> found(components.count());
     for (int c = components.count() - 1; c >= 0; --c) {
       found[c] = parts.part(p, components.velocities_of(c), components.rows_of(c), v, gamma);

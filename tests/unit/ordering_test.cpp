@@ -6,6 +6,7 @@
 
 #include "assemble/bodies.h"
 #include "support/random_problem.h"
+#include "support/velocity_runs.h"
 
 namespace support {
 namespace {
@@ -83,8 +84,7 @@ TEST(Ordering, LoneVelocityWithDiagonalMassIsFree) {
   add_row(p, {{1, 1}});
   Ordered o(p);
   EXPECT_EQ(o.order, (std::vector<std::int32_t>{1, 4}));
-  EXPECT_EQ(std::vector<std::int32_t>(o.ordering.free_velocity.begin(), o.ordering.free_velocity.end()),
-            (std::vector<std::int32_t>{0, 2, 3}));
+  EXPECT_EQ(list(o.ordering.free_velocities), (std::vector<std::int32_t>{0, 2, 3}));
   EXPECT_FALSE(o.accepts(p, {0, 1, 4})) << "free velocities are not ordered";
 }
 
@@ -95,7 +95,7 @@ TEST(Ordering, VelocityOfADisabledRowIsFree) {
   const mlcp::Mask enabled = mask_of({MLCP_ROW_DISABLED});
   const Ordered o(p, &enabled);
   EXPECT_TRUE(o.order.empty());
-  EXPECT_EQ(o.ordering.free_velocity.size(), 1u);
+  EXPECT_EQ(list(o.ordering.free_velocities), (std::vector<std::int32_t>{0}));
 }
 
 TEST(Ordering, NothingAtAll) { EXPECT_TRUE(Ordered(empty_problem()).order.empty()); }
@@ -112,7 +112,7 @@ TEST(Ordering, RandomProblems) {
     const mlcp::Mask enabled = enabled_mask(random, p.m(), 0.2);
     Ordered o(p, &enabled);
     std::vector<std::int32_t> all = o.order;
-    all.insert(all.end(), o.ordering.free_velocity.begin(), o.ordering.free_velocity.end());
+    for (const int j : list(o.ordering.free_velocities)) all.push_back(j);
     std::sort(all.begin(), all.end());
     std::vector<std::int32_t> wanted;
     for (int node = 0; node < p.n() + p.m(); ++node)
