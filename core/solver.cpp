@@ -344,7 +344,9 @@ bool Solver::State::solve_small(const SolveInput& input, const Mask* start, Watc
   report.analyzed = !dense.knew();
   report.seconds_analyze = report.analyzed ? watch.seconds() : 0;
   const Problem& problem = input.problem;
-  clear_result(problem);
+  clear_findings();
+  result.v.resize(problem.n());  // each of them is given, free or in an island
+  result.redundant.assign(problem.m(), 0);
   take_given_velocities(problem);
   solve_free_velocities(problem, dense.components.free_velocities);
   if (indefinite >= 0 || !dense.solve(input, start, watch, crew, measure, result, errors, counts)) return false;
