@@ -13,6 +13,7 @@
  *   w  slacks        m   m/s               S  compliance         m x m, symmetric PSD, m/(N.s)
  *   M  mass          n x n, symmetric positive definite          J  Jacobian, m x n, sparse
  *
+ * M may be semidefinite, down to velocities without any mass, where rows hold what it does not.
  * A bilateral row (joint) has lo = -inf, hi = +inf; a unilateral row (contact, limit) lo = 0, hi = +inf; a boxed row
  * (motor, fixed-bound friction) finite bounds. The reduced problem w = A z + b, 0 <= z, w is n = 0, S = A, r = -b, g = z.
  * Source: Tasora, Manconi, Silvestri, "Un nuovo metodo del simplesso per il problema di complementarita lineare mista in
@@ -91,7 +92,8 @@ enum {
   MLCP_INTERRUPTED = 4,           /* the progress callback asked to stop */
   MLCP_INFEASIBLE = 5,            /* rows contradict each other; the certificate names them */
   MLCP_UNBOUNDED = 6,             /* only for semidefinite M: a ray along which the energy falls without end */
-  MLCP_NOT_POSITIVE_DEFINITE = 7, /* M (or S of a reduced problem) is indefinite; the report names body and velocity */
+  MLCP_NOT_POSITIVE_DEFINITE = 7, /* M (or S of a reduced problem) is indefinite, or semidefinite and no row holds what it does not; the
+                                     report names body and velocity */
   MLCP_BAD_INPUT = 8              /* never returned in a report: input is checked as it is added */
 };
 
@@ -488,9 +490,10 @@ typedef struct mlcp_solver mlcp_solver;
 typedef int32_t mlcp_method;
 enum {
   MLCP_METHOD_AUTO = 0,    /* the library chooses, island by island */
-  MLCP_METHOD_SIMPLEX = 1, /* the paper's method, section 3: exact, finite, one row at a time */
+  MLCP_METHOD_SIMPLEX = 1, /* the paper's method, section 3: exact, finite, one row at a time; where M is only semidefinite, proximal steps
+                              around it */
   MLCP_METHOD_NEWTON = 2,  /* many rows at a time: primal-dual active set, proximal with line search where needed; exact; falls back on
-                              the simplex; takes a positive semidefinite M where the solution is finite */
+                              the simplex */
   MLCP_METHOD_PGS = 3      /* projected Gauss-Seidel, for low accuracy: set a tolerance that it can reach. Islands whose mass couples more than
                               64 velocities are solved by newton */
 };

@@ -8,6 +8,8 @@ namespace {
 
 /// What a batch does to so many rows is found at once: Kernels::products.
 constexpr std::int64_t least_rows = 4, most_rows = 16;
+/// Of Mⱼⱼ: a pivot that is no more is what rounding leaves of 0, in a mass that is only semidefinite.
+constexpr double rounding = 0x1p-48;
 /// Columns summed at once.
 constexpr std::int32_t most_columns = 32;
 
@@ -152,7 +154,7 @@ void Factor::for_each_sum(std::int32_t first, std::int32_t last, std::int64_t ta
   }
 }
 
-/// Column p within its run, and its pivot.  false: it is that of a velocity and not positive.
+/// Column p within its run, and its pivot.  false: it is that of a velocity and not positive but for rounding.
 bool Factor::eliminate(std::int32_t first, std::int32_t p, double drop, std::int64_t& work) {
   double* column = values_.data() + symbolic_->pointers[p];
   const std::int64_t rows = symbolic_->pointers[p + 1] - symbolic_->pointers[p];
@@ -161,7 +163,7 @@ bool Factor::eliminate(std::int32_t first, std::int32_t p, double drop, std::int
       for (std::int64_t i = 0; i < rows; ++i) column[i] -= sum[i] * factor;
     });
   const double d = pivot_[p];
-  if (in_[p] && !pattern_->is_row(p) && !(d > 0)) return false;
+  if (in_[p] && !pattern_->is_row(p) && !(d > rounding * kkt_->factored[p])) return false;
   if (in_[p] && pattern_->is_row(p) && !(std::abs(d) > drop * kkt_->a[pattern_->row_ordinal[p]])) {
     in_[p] = 0;
     clear_row(p, work);

@@ -50,8 +50,9 @@ void KktValues::load(const Problem& problem, const KktPattern& pattern) {
         row[t] = -sigma[s];
       } else {
         row[t] = jacobian[s];
-        if (diagonal[q] > 0) sum += (row[t] / diagonal[q]) * row[t];
-        if (diagonal[q] > 0) terms += std::abs(row[t] * (b[q] / diagonal[q]));
+        const double mass_of_q = diagonal[q] > 0 ? diagonal[q] : 1;  // as in Measure
+        sum += (row[t] / mass_of_q) * row[t];
+        terms += std::abs(row[t] * (b[q] / mass_of_q));
       }
     }
     a[o] = sum;
@@ -83,12 +84,38 @@ void KktValues::regularise(const KktPattern& pattern, const Island& island, doub
     const std::int32_t p = pattern.row_position[o];
     factored[p] = diagonal[p] - epsilon * a[o];
   }
-  double largest = 0;
-  if (delta > 0)
-    for (std::int32_t p = island.first; p < island.last; ++p)
-      if (!pattern.is_row(p)) largest = std::max(largest, diagonal[p]);
+  const double otherwise = delta > 0 ? largest_mass(pattern, island) : 0;
   for (std::int32_t p = island.first; p < island.last; ++p)
-    if (!pattern.is_row(p)) factored[p] = diagonal[p] + delta * (largest > 0 ? largest : 1);
+    if (!pattern.is_row(p)) factored[p] = diagonal[p] + delta * (diagonal[p] > 0 ? diagonal[p] : otherwise);
+}
+
+/// 1 where there is no mass at all.
+double KktValues::largest_mass(const KktPattern& pattern, const Island& island) const {
+  double largest = 0;
+  for (std::int32_t p = island.first; p < island.last; ++p)
+    if (!pattern.is_row(p)) largest = std::max(largest, diagonal[p]);
+  return largest > 0 ? largest : 1;
+}
+
+void KktValues::add_proximal_mass(const KktPattern& pattern, const Island& island, double delta, const double* u) {
+  regularise(pattern, island, 0, delta);
+  for (std::int32_t p = island.first; p < island.last; ++p) {
+    if (pattern.is_row(p)) continue;
+    const double more = factored[p] - diagonal[p];
+    diagonal[p] = factored[p];
+    b[p] += more * u[p];
+    size[p] += std::abs(more * u[p]);
+  }
+}
+
+void KktValues::take_proximal_mass_away(const Problem& problem, const KktPattern& pattern, const Island& island) {
+  for (std::int32_t p = island.first; p < island.last; ++p) {
+    if (pattern.is_row(p)) continue;
+    const std::int32_t s = pattern.diagonal_source[p];
+    diagonal[p] = s < 0 ? 0.0 : problem.mass.values[s];
+    b[p] = problem.momentum[pattern.node[p]];
+    size[p] = std::abs(b[p]);
+  }
 }
 
 void KktValues::measure_together(const KktPattern& pattern, std::span<const Island> islands, std::span<const std::int32_t> contact_of_row) {

@@ -6,6 +6,9 @@
 
 namespace mlcp {
 
+/// Of the largest Mⱼⱼ: the δ that is added to all of them where M is only semidefinite.
+constexpr double semidefinite_delta = 1e-8;
+
 /// The numbers of one step in elimination order: K x = b with x = (v, −γ), prescribed velocities moved into b.
 ///
 ///     K = [M Jᵀ; J −Σ],   b = (k, r − J v_given)
@@ -16,7 +19,7 @@ struct KktValues {
   Array<double> row;       ///< as KktPattern::row_columns
   Array<double> b;         ///< size
   Array<double> size;      ///< |k|; |r| + |J||v₀| + 2|J||v_given| with v₀ⱼ = kⱼ/Mⱼⱼ: terms that the errors are relative to
-  Array<double> a;         ///< ordinals: aᵢ = Σⱼ Jᵢⱼ²/Mⱼⱼ + Σᵢᵢ over dynamic velocities
+  Array<double> a;         ///< ordinals: aᵢ = Σⱼ Jᵢⱼ²/Mⱼⱼ + Σᵢᵢ over dynamic velocities, 1 for masses that are 0
   Array<double> root_a;    ///< ordinals: √aᵢ, 1 where aᵢ = 0
   Array<double> lo, hi;    ///< ordinals
   Array<std::int32_t> together;  ///< ordinal → the first of the rows of its island that are measured with it; empty: each row for itself
@@ -29,6 +32,10 @@ struct KktValues {
   void soften(const Problem& problem, const KktPattern& pattern, std::int32_t first, std::int32_t last, double amount);
   /// What the factor takes in on an island from now on: −(Σᵢᵢ + ε aᵢ) on rows, Mⱼⱼ + δ max M on velocities. K itself stays.
   void regularise(const KktPattern& pattern, const Island& island, double epsilon, double delta);
+  /// The numbers of the problem with ½δ|v − u|² added, |.| in units of max M: its M and k, for the factor as well. u: by position.
+  void add_proximal_mass(const KktPattern& pattern, const Island& island, double delta, const double* u);
+  /// Those of the problem itself again; the factor stays that of M + δ.
+  void take_proximal_mass_away(const Problem& problem, const KktPattern& pattern, const Island& island);
   /// contact_of_row: see SolveInput.
   void measure_together(const KktPattern& pattern, std::span<const Island> islands, std::span<const std::int32_t> contact_of_row);
   /// scale(ordinal) := the largest of the rows measured together.
@@ -41,6 +48,7 @@ struct KktValues {
   }
 
  private:
+  double largest_mass(const KktPattern& pattern, const Island& island) const;
   Array<std::int32_t> first_;  // contact → its first row in the island
 };
 

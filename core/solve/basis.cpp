@@ -162,7 +162,8 @@ std::int32_t Basis::violations(const Island& island) const {
   return count;
 }
 
-/// Velocities whose momentum |Mⱼⱼ vⱼ| is a few roundings of its own terms, or, widely, of the largest of the island, become 0.
+/// Velocities whose momentum |Mⱼⱼ vⱼ| is a few roundings of its own terms, or, widely, of the largest of the island, become 0. So do, widely, impulses that are a
+/// few roundings of the largest, √a γ: alone on a velocity without mass they are all there is of its momentum.
 /// returns whether one has changed.
 bool Basis::still(const Island& island, bool widely) {
   double largest = 0;
@@ -170,8 +171,17 @@ bool Basis::still(const Island& island, bool widely) {
     if (!pattern->is_row(p)) largest = std::max(largest, refinement.scale(p));
   bool changed = false;
   for (std::int32_t p = island.first; p < island.last; ++p) {
-    if (pattern->is_row(p) || set.x[p] == 0 || std::abs(values.diagonal[p] * set.x[p]) > rounding * (widely ? largest : refinement.scale(p))) continue;
+    if (pattern->is_row(p) || set.x[p] == 0 || values.diagonal[p] == 0 || std::abs(values.diagonal[p] * set.x[p]) > rounding * (widely ? largest : refinement.scale(p))) continue;
     set.x[p] = 0;
+    changed = true;
+  }
+  if (!widely) return changed;
+  double most = 0;
+  for (std::int32_t o = island.first_row; o < island.last_row; ++o) most = std::max(most, values.root_a[o] * std::abs(gamma(o)));
+  for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
+    const double size = values.root_a[o] * std::abs(gamma(o));
+    if (set.state[o] != ActiveSet::active || size == 0 || size > rounding * most) continue;
+    set.x[position(o)] = 0;
     changed = true;
   }
   return changed;

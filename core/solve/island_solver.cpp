@@ -2,6 +2,7 @@
 
 #include "solve/gauss_seidel.h"
 #include "solve/newton.h"
+#include "solve/proximal_simplex.h"
 #include "solve/redundancy.h"
 #include "solve/simplex.h"
 
@@ -123,13 +124,25 @@ class Run {
     end_.method = MLCP_METHOD_SIMPLEX;
     end_.epsilon = 0;
     end_.outcome = simplex.solve(island_, index_, trace);
-    if (end_.outcome == MLCP_INFEASIBLE) {
-      end_.certificate_rows = simplex.certificate_rows();
-      limits_.restart(end_.counts);
-      simplex.settle(island_);
-    } else if (end_.outcome == MLCP_NOT_POSITIVE_DEFINITE) {
-      end_.indefinite = basis_.factor.failed_position(island_);
-    }
+    if (end_.outcome == MLCP_INFEASIBLE) settle(simplex);
+    if (end_.outcome != MLCP_NOT_POSITIVE_DEFINITE) return;
+    end_.indefinite = basis_.factor.failed_position(island_);
+    if (rows_ > 0) pivot_semidefinite(trace);  // that may hold what M does not
+  }
+
+  /// The velocity of least violation beside the proof.
+  void settle(auto& simplex) {
+    end_.certificate_rows = simplex.certificate_rows();
+    limits_.restart(end_.counts);
+    simplex.settle(island_);
+  }
+
+  void pivot_semidefinite(Array<mlcp_pivot>* trace) {
+    ProximalSimplex simplex(input_, basis_, check_, limits_, end_.counts);
+    end_.semidefinite = true;
+    end_.outcome = simplex.solve(island_, index_, trace);
+    if (end_.outcome == MLCP_INFEASIBLE) settle(simplex);
+    if (end_.outcome != MLCP_NOT_POSITIVE_DEFINITE) end_.indefinite = -1;
   }
 
   bool sweep() {

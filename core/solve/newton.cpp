@@ -30,8 +30,6 @@ constexpr int most_descents = 30, most_inner_steps = 60;
 constexpr int most_rounds = 5;
 /// Of its first value: what the interior points are followed down to.
 constexpr double reduced_gap = 1e-14;
-/// Of the largest Mⱼⱼ, where M is only semidefinite.
-constexpr double semidefinite_delta = 1e-8;
 
 }  // namespace
 
@@ -162,7 +160,8 @@ Newton::Ending Newton::sharp_rounds(const Island& island, int rounds) {
       before = infinity;
       continue;
     }
-    if (contradict && flips_.empty()) return Ending::stuck;
+    contradicts_ = contradict && flips_.empty();
+    if (contradicts_) return Ending::stuck;
     before = finished_;
     // The share of least norm may be beyond the bounds of some rows, where that of the centre is not. Only where there is a solution: the impulses of
     // an infeasible problem grow from centre to centre until its contradiction is small beside them.
@@ -228,7 +227,7 @@ void Newton::begin(const Island& island, bool warm) {
   proximal_.enter(island);
   proximal_.center_here(island);
   delta_ = 0;
-  feasible_ = false;
+  feasible_ = contradicts_ = false;
 }
 
 /// Without an answer, the best active set there is, and K without ε.
@@ -251,8 +250,9 @@ mlcp_outcome Newton::solve(const Island& island, bool warm, Left open) {
   left_ = {};
   for (int attempt = 0; attempt < 3 && ending != Ending::settled && ending != Ending::stopped; ++attempt) {
     left_.guess = open.guess && attempt == 0 && ending == Ending::stuck;
-    left_.pivots = open.pivots && attempt == 1 && (island.last_row - island.first_row <= few_to_pivot || (ending == Ending::stuck && flips_.empty()));
+    left_.pivots = open.pivots && attempt == 1 && (island.last_row - island.first_row <= few_to_pivot || contradicts_);
     if (left_.guess || left_.pivots) break;
+    if (attempt == 2 && feasible_ && ending == Ending::stuck && finished_ <= refined) break;  // a few rows that depend on each other change sides: for pivots
     go_back(island);
     ending = attempt == 0 ? sharp(island, 4) : attempt == 1 ? interior(island) : descent(island);
   }

@@ -68,7 +68,8 @@ class Newton {
   Counts& counts_;
   Proximal proximal_;
   double delta_ = 0;
-  bool feasible_ = false;  // interior points have shown it
+  bool feasible_ = false;     // interior points have shown it
+  bool contradicts_ = false;  // the active set stays, and some of its rows contradict each other
   bool warm_ = false;
   Left left_;
   double finished_ = 0;          // error of the last finish

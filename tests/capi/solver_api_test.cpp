@@ -158,10 +158,23 @@ TEST_F(SolverApi, MassThatIsNotPositiveDefiniteIsNamed) {
   EXPECT_EQ(report.worst_body, body);
   EXPECT_EQ(report.worst_velocity, 2 + 1);
   add_row(p, {2, 3, 4}, {1, 1, 1});
-  ASSERT_EQ(mlcp_solve(s, p, nullptr, nullptr, &report), MLCP_OK);
-  EXPECT_EQ(report.outcome, MLCP_NOT_POSITIVE_DEFINITE);
-  EXPECT_EQ(report.worst_body, body);
-  EXPECT_EQ(report.worst_velocity, 2 + 1);
+  for (const mlcp_method method : {MLCP_METHOD_AUTO, MLCP_METHOD_SIMPLEX, MLCP_METHOD_NEWTON}) {
+    mlcp_settings settings;
+    mlcp_settings_init(&settings, sizeof settings);
+    settings.method = method;
+    const SolverHandle by_method = make_solver(&settings);
+    const double away = 1, against = -1;  // the row leaves it free one way
+    ASSERT_EQ(mlcp_problem_set_momentum(p, 3, 1, &away), MLCP_OK);
+    ASSERT_EQ(mlcp_solve(by_method.get(), p, nullptr, nullptr, &report), MLCP_OK);
+    EXPECT_EQ(report.outcome, MLCP_NOT_POSITIVE_DEFINITE) << mlcp_method_text(method);
+    EXPECT_EQ(report.worst_body, body);
+    EXPECT_EQ(report.worst_velocity, 2 + 1);
+    ASSERT_EQ(mlcp_problem_set_momentum(p, 3, 1, &against), MLCP_OK);
+    ASSERT_EQ(mlcp_solve(by_method.get(), p, nullptr, nullptr, &report), MLCP_OK);
+    EXPECT_EQ(report.outcome, MLCP_SOLVED) << mlcp_method_text(method);
+    EXPECT_LE(report.largest_error, 1e-15);
+    EXPECT_EQ(report.worst_body, -1);
+  }
 }
 
 TEST_F(SolverApi, FreeVelocityThatOverflowsIsNotCalledSolved) {
