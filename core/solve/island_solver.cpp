@@ -58,6 +58,7 @@ class Run {
     const mlcp_method method = input_.settings.method;
     if (!island_.crowded && (method == MLCP_METHOD_SIMPLEX || rows_ == 0 || (method == MLCP_METHOD_AUTO && rows_ <= few_rows))) {
       pivot(trace);
+      if (end_.outcome == MLCP_ITERATION_LIMIT) pivot_as_singular(trace);
       return;
     }
     if (method == MLCP_METHOD_PGS && sweep()) return;
@@ -94,9 +95,19 @@ class Run {
     return false;
   }
 
+  /// From rows at rest.
   void try_again(Array<mlcp_pivot>* trace) {
     restart();
     pivot(trace);
+    if (end_.outcome == MLCP_ITERATION_LIMIT) pivot_as_singular(trace);
+  }
+
+  /// M may be singular but for rounding.
+  void pivot_as_singular(Array<mlcp_pivot>* trace) {
+    const std::int64_t most = input_.settings.max_iterations;
+    if (end_.semidefinite || rows_ == island_.last - island_.first || (most > 0 && end_.counts.pivots >= most)) return;
+    restart();
+    pivot_semidefinite(trace);
   }
 
   /// Puts impulses where `start` has them, and rows too, unless a factor is to follow them: then the changes that are left to make.
