@@ -14,6 +14,13 @@ bool check_order(const KktPattern& pattern, const Crowding& crowding) {
   return true;
 }
 
+bool check_entries(const KktPattern& pattern) {
+  for (std::int32_t p = 0; p < pattern.size(); ++p)
+    for (std::int32_t t = pattern.lower_pointers[p]; t < pattern.lower_pointers[p + 1]; ++t)
+      if (pattern.lower_rows[t] <= (t > pattern.lower_pointers[p] ? pattern.lower_rows[t - 1] : p)) return false;
+  return true;
+}
+
 bool check_columns(const Symbolic& symbolic) {
   for (std::int32_t p = 0; p < symbolic.size(); ++p) {
     const std::int64_t first = symbolic.pointers[p], last = symbolic.pointers[p + 1];
@@ -65,7 +72,7 @@ bool check_islands(const Symbolic& symbolic) {
 }  // namespace
 
 bool check_analysis(const Analysis& analysis) {
-  return check_order(analysis.pattern, analysis.crowding) && check_columns(analysis.symbolic) && check_runs(analysis.symbolic) &&
+  return check_order(analysis.pattern, analysis.crowding) && check_entries(analysis.pattern) && check_columns(analysis.symbolic) && check_runs(analysis.symbolic) &&
          check_batches(analysis.symbolic) && check_islands(analysis.symbolic);
 }
 

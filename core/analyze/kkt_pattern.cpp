@@ -2,19 +2,23 @@
 
 namespace mlcp {
 
-/// The entries of the last row, from `begin` on: a row that comes before its velocities is a column of L as it stands.
-void KktPattern::sort_by_column(std::int32_t begin) {
-  for (auto t = begin + 1; t < static_cast<std::int32_t>(row_columns.size()); ++t) {
-    const std::int32_t column = row_columns[t], source = row_source[t];
+namespace {
+
+/// Entries begin .. end − 1 by index, those of nearly sorted rows and columns.
+void sort_entries(Array<std::int32_t>& index, Array<std::int32_t>& source, std::int32_t begin, std::int32_t end) {
+  for (std::int32_t t = begin + 1; t < end; ++t) {
+    const std::int32_t i = index[t], from = source[t];
     std::int32_t s = t;
-    for (; s > begin && row_columns[s - 1] > column; --s) {
-      row_columns[s] = row_columns[s - 1];
-      row_source[s] = row_source[s - 1];
+    for (; s > begin && index[s - 1] > i; --s) {
+      index[s] = index[s - 1];
+      source[s] = source[s - 1];
     }
-    row_columns[s] = column;
-    row_source[s] = source;
+    index[s] = i;
+    source[s] = from;
   }
 }
+
+}  // namespace
 
 void KktPattern::build(const Problem& problem, std::span<const std::int32_t> order) {
   const SparseView mass = problem.mass_view(), jacobian = problem.jacobian_view(), sigma = problem.compliance_view();
@@ -36,6 +40,7 @@ void KktPattern::build(const Problem& problem, std::span<const std::int32_t> ord
   row_source.clear();
   diagonal_source.assign(size, -1);
   row_pointers.push_back(0);
+  bool mixed = false;  // such a row is coupled to others by Σ, whose entries come among those of velocities
   for (const std::int32_t p : row_position) {
     const std::int32_t i = node[p] - n;
     bool early = false;
@@ -46,13 +51,15 @@ void KktPattern::build(const Problem& problem, std::span<const std::int32_t> ord
       row_source.push_back(t);
       early |= q > p;
     }
-    if (early) sort_by_column(row_pointers.back());
+    // a row that comes before its velocities is a column of L as it stands
+    if (early) sort_entries(row_columns, row_source, row_pointers.back(), static_cast<std::int32_t>(row_columns.size()));
     for (std::int32_t t = sigma.pointers[i]; t < sigma.pointers[i + 1]; ++t) {
       const std::int32_t q = position[n + sigma.indices[t]];
       if (q == p) diagonal_source[p] = t;
       if (q < 0 || q == p) continue;
       row_columns.push_back(q);
       row_source.push_back(t);
+      mixed |= early;
     }
     row_pointers.push_back(static_cast<std::int32_t>(row_columns.size()));
   }
@@ -99,6 +106,8 @@ void KktPattern::build(const Problem& problem, std::span<const std::int32_t> ord
     lower_source[t] = source;
     upper_rows[scratch_[size + row]++] = column;
   });
+  for (const std::int32_t p : row_position)
+    if (mixed) sort_entries(lower_rows, lower_source, lower_pointers[p], lower_pointers[p + 1]);
 }
 
 }  // namespace mlcp

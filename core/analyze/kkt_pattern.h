@@ -27,7 +27,6 @@ struct KktPattern {
   void build(const Problem& problem, std::span<const std::int32_t> order);
 
  private:
-  void sort_by_column(std::int32_t begin);
   Array<std::int32_t> scratch_;
 };
 

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "analyze/check_analysis.h"
 #include "assemble/bodies.h"
 #include "support/random_problem.h"
 #include "support/stage.h"
@@ -52,6 +55,63 @@ TEST(Factor, ActiveSubsetsEqualDenseElimination) {
     expect_factor_of(stage, random, 1e-7);  // pivots down to 1e-7 a
     ASSERT_FALSE(HasFatalFailure()) << "seed " << seed;
   }
+}
+
+/// Rows before the velocities that they touch and among rows that Σ couples them to: columns of both kinds of entries.
+TEST(Factor, CrowdedIslandsWithCoupledRowsAreThoseOfTheDenseMatrix) {
+  Shape shape;
+  shape.bodies_most = 4;
+  shape.dimension_most = 4;
+  shape.rows_least = 20;
+  shape.rows_most = 40;
+  shape.compliance = 0.7;
+  shape.compliance_matrix = 1;
+  int crowded = 0, mixed = 0;
+  for (int seed = 0; seed < 200; ++seed) {
+    Random random(seed);
+    const mlcp::Problem p = random_problem(random, shape);
+    mlcp::Analysis analysis{mlcp::Memory()};
+    analysis.run(p, nullptr, false, {});
+    ASSERT_TRUE(mlcp::check_analysis(analysis)) << "seed " << seed;
+    const mlcp::KktPattern& pattern = analysis.pattern;
+    const int size = pattern.size();
+    crowded += analysis.crowding.any();
+    for (const int row : pattern.row_position) {
+      const auto begin = pattern.lower_rows.begin() + pattern.lower_pointers[row], end = pattern.lower_rows.begin() + pattern.lower_pointers[row + 1];
+      const auto is_row = [&](int q) { return pattern.is_row(q); };
+      mixed += std::any_of(begin, end, is_row) && !std::all_of(begin, end, is_row);
+    }
+    mlcp::KktValues values{mlcp::Memory()};
+    values.load(p, pattern);
+    mlcp::Factor factor{mlcp::Memory()};
+    factor.prepare(pattern, analysis.symbolic, values);
+    std::vector<std::uint8_t> wanted(size);
+    for (std::uint8_t& w : wanted) w = random.chance(0.7);
+    for (const mlcp::Island& island : analysis.symbolic.islands) values.regularise(pattern, island, 1e-2, 0);
+    Matrix K = Matrix::Zero(size, size);
+    for (int q = 0; q < size; ++q) {
+      K(q, q) = values.factored[q];
+      for (int t = pattern.lower_pointers[q]; t < pattern.lower_pointers[q + 1]; ++t) K(pattern.lower_rows[t], q) = K(q, pattern.lower_rows[t]) = values.lower[t];
+    }
+    std::vector<double> x = random_vector(random, size), b = x;
+    std::int64_t work = 0;
+    for (const mlcp::Island& island : analysis.symbolic.islands) {
+      ASSERT_EQ(factor.factorize(island, wanted.data(), 0, work), mlcp::FactorStatus::ok) << "seed " << seed;
+      factor.solve(island, x.data(), work);
+    }
+    for (int i = 0; i < size; ++i) {
+      if (!factor.in(i)) continue;
+      Real residual = b[i], terms = std::abs(b[i]);
+      for (int j = 0; j < size; ++j) {
+        if (!factor.in(j)) continue;
+        residual -= K(i, j) * x[j];
+        terms += std::abs(K(i, j) * x[j]);
+      }
+      ASSERT_LE(std::abs(residual), 1e-10 * terms) << "seed " << seed << ", position " << i;
+    }
+  }
+  EXPECT_GT(crowded, 100);
+  EXPECT_GT(mixed, 100);
 }
 
 TEST(Factor, ChainsEqualDenseElimination) {
