@@ -111,8 +111,9 @@ void Measure::rows(const Problem& problem, std::span<const std::int32_t> rows, s
       const double x = jacobian.values[t];
       if (reach_[j] < 0) {
         if (!(diagonal_[j] > 0)) diagonal_[j] = 1;
-        reach_[j] = std::abs(v[j]) + std::abs(problem.momentum[j] / diagonal_[j]);
-        inverse_[j] = std::min(1 / diagonal_[j], std::numeric_limits<double>::max());
+        const double inverse = 1 / diagonal_[j];  // out of range: the mass is denormal, its velocity need not be
+        reach_[j] = std::abs(v[j]) + std::abs(inverse < infinity ? problem.momentum[j] * inverse : problem.momentum[j] / diagonal_[j]);
+        inverse_[j] = std::min(inverse, std::numeric_limits<double>::max());
       }
       sum += x * v[j];
       size += std::abs(x) * reach_[j];
