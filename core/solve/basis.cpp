@@ -162,8 +162,8 @@ std::int32_t Basis::violations(const Island& island) const {
   return count;
 }
 
-/// Velocities whose momentum |Mⱼⱼ vⱼ| is a few roundings of its own terms, or, widely, of the largest of the island, become 0. So do, widely, impulses that are a
-/// few roundings of the largest, √a γ: alone on a velocity without mass they are all there is of its momentum.
+/// Velocities whose momentum |Mⱼⱼ vⱼ| is a few roundings of its own terms, or, widely, of the largest of the island, become 0. So do, widely, impulses √a γ that are
+/// a few roundings of the largest, or of what a right-hand side asks for: alone on a velocity without mass they are all there is of its momentum.
 /// returns whether one has changed.
 bool Basis::still(const Island& island, bool widely) {
   double largest = 0;
@@ -177,7 +177,7 @@ bool Basis::still(const Island& island, bool widely) {
   }
   if (!widely) return changed;
   double most = 0;
-  for (std::int32_t o = island.first_row; o < island.last_row; ++o) most = std::max(most, values.root_a[o] * std::abs(gamma(o)));
+  for (std::int32_t o = island.first_row; o < island.last_row; ++o) most = std::max({most, values.root_a[o] * std::abs(gamma(o)), values.size[position(o)] / values.root_a[o]});
   for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
     const double size = values.root_a[o] * std::abs(gamma(o));
     if (set.state[o] != ActiveSet::active || size == 0 || size > rounding * most) continue;

@@ -27,17 +27,21 @@ void ProximalSimplex::add_mass(const Island& island) {
   basis_.values.add_proximal_mass(*basis_.pattern, island, semidefinite_delta, basis_.work.center.data());
 }
 
-/// max δⱼ|v − u|ⱼ over the largest momentum: how far the last step is from standing still. Not by component: a velocity that tends to 0 has no scale.
+/// How far the last step is from standing still: max δⱼ|v − u|ⱼ over the largest momentum, or max |v − u| over the largest velocity, whichever is less. Not by
+/// component: a velocity that tends to 0 has no scale.
 double ProximalSimplex::moved(const Island& island) {
   const KktValues& k = basis_.values;
-  double most = 0, size = 0;
+  double most = 0, size = 0, way = 0, speed = 0;
   basis_.refinement.error(island, *basis_.pattern, k, basis_.factor, k.b.data(), k.size.data(), basis_.set.x.data(), counts_.work);
   for (std::int32_t p = island.first; p < island.last; ++p) {
     if (basis_.pattern->is_row(p)) continue;
-    most = std::max(most, (k.factored[p] - k.diagonal[p]) * std::abs(basis_.set.x[p] - basis_.work.center[p]));
+    const double v = basis_.set.x[p], step = std::abs(v - basis_.work.center[p]);
+    most = std::max(most, (k.factored[p] - k.diagonal[p]) * step);
     size = std::max(size, basis_.refinement.scale(p));
+    way = std::max(way, step);
+    speed = std::max(speed, std::abs(v));
   }
-  return most > 0 ? most / size : 0;
+  return way == 0 || most == 0 ? 0 : std::min(most / size, way / speed);
 }
 
 /// Whether the point of the active set solves the problem itself; else x stays.
