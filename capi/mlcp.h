@@ -581,7 +581,7 @@ typedef struct mlcp_report {
   /* errors recomputed from the problem's own numbers, rows left out by `enabled` excepted; not finite: INFINITY */
   double momentum_error;         /* max |Mv - J'g - k|_i / (|M||v| + |J|'|g| + |k|)_i over dynamic velocities */
   double constraint_error;       /* max |median(w, a(g - lo), a(g - hi))|_i / (|J|(|v| + |v0|) + |S||g| + |r|)_i,
-                                    a = sum J^2/M + S_ii, v0 = k/M_jj */
+                                    a = sum J^2/M_jj + S_ii, v0 = k/M_jj, with 1 for an M_jj of 0 */
   double largest_error;          /* the larger of the two */
   double momentum_residual;      /* max |Mv - J'g - k|_i in N.s */
   double constraint_residual;    /* max |median(w, a(g - lo), a(g - hi))|_i in m/s */

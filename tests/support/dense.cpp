@@ -8,7 +8,8 @@
 namespace support {
 namespace {
 
-Real inverse_mass(const Dense& d, int j) { return d.dynamic[j] ? 1 / d.M(j, j) : 0; }
+/// 1 stands for a mass of 0.
+Real inverse_mass(const Dense& d, int j) { return !d.dynamic[j] ? 0 : d.M(j, j) > 0 ? 1 / d.M(j, j) : 1; }
 
 Vector row_scales(const Dense& d) {
   Vector a(d.m());
@@ -81,7 +82,7 @@ DenseErrors errors_of(const Dense& d, const Vector& v, const Vector& gamma, Real
     if (!d.enabled[i]) continue;
     Real w = -d.r[i], size = std::abs(d.r[i]);
     for (int j = 0; j < d.n(); ++j) {
-      const Real v0 = d.dynamic[j] ? d.k[j] / d.M(j, j) : v[j];
+      const Real v0 = d.dynamic[j] ? d.k[j] / (d.M(j, j) > 0 ? d.M(j, j) : 1) : v[j];
       w += d.J(i, j) * v[j];
       size += std::abs(d.J(i, j)) * (std::abs(v[j]) + std::abs(v0));
     }
