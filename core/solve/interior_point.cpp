@@ -8,14 +8,17 @@
 namespace mlcp {
 namespace {
 
-constexpr int most_steps = 40;
+constexpr int most_steps = 60;
+/// So many steps, one after the other, that leave more than half of what rows miss: there may be no feasible point, or it is much further away than the start.
+constexpr int patience = 8;
 constexpr double to_the_boundary = 0.995;
 /// Of the size that slacks have in the beginning: rows that miss by more may contradict each other.
 constexpr double feasible = 1e-8;
-/// Of aᵢ, added to the compliance of every row: a proximal term around the point of each step, so that dependent rows do no harm and nothing is biased.
-constexpr double proximal = 1e-9;
+/// Of aᵢ, added to the compliance of every row: a proximal term around the point of each step, so that dependent rows do no harm and nothing is biased. Rows
+/// miss by as much as impulses move, times itself; those that start far away move far.
+constexpr double proximal = 1e-9, proximal_of_far = 1e-13;
 /// Impulses and slacks start at least this far inside, relative to their mean size.
-constexpr double inside = 0.1;
+constexpr double inside = 0.1, far_inside = 100;
 
 }  // namespace
 
@@ -36,8 +39,9 @@ double InteriorPoint::gap(const Island& island) const {
   return count > 0 ? sum / count : 0;
 }
 
-bool InteriorPoint::start(const Island& island, double delta) {
+bool InteriorPoint::start(const Island& island, double delta, bool far) {
   delta_ = delta;
+  proximal_ = far ? proximal_of_far : proximal;
   const KktValues& k = basis_.values;
   ActiveSet& set = basis_.set;
   slacks(island, *basis_.pattern, k, set.x.data(), set.w.data());
@@ -49,7 +53,7 @@ bool InteriorPoint::start(const Island& island, double delta) {
     size += basis_.gamma(o) * basis_.gamma(o) * k.a[o] + set.w[o] * set.w[o] / k.a[o];
     ++count;
   }
-  const double margin = count > 0 ? inside * std::sqrt(size / count) : 0;
+  const double margin = count > 0 ? (far ? far_inside : inside) * std::sqrt(size / count) : 0;
   for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
     if (!live(o)) continue;
     const double root = k.root_a[o], apart = std::min(margin / root, 0.25 * (k.hi[o] - k.lo[o]));
@@ -60,14 +64,14 @@ bool InteriorPoint::start(const Island& island, double delta) {
     basis_.work.slope[o] = k.hi[o] < infinity ? std::max(-set.w[o], margin * root) : 0;
   }
   first_gap_ = gap_ = gap(island);
-  margin_ = margin > 0 ? margin : 1;
+  margin_ = margin > 0 ? (far ? inside / far_inside : 1) * margin : 1;
   find_residual(island);
   return std::isfinite(first_gap_);
 }
 
 bool InteriorPoint::factorize(const Island& island) {
   KktValues& k = basis_.values;
-  k.regularise(*basis_.pattern, island, proximal, delta_);
+  k.regularise(*basis_.pattern, island, proximal_, delta_);
   for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
     if (!live(o)) continue;
     const double gamma = basis_.gamma(o);
@@ -196,7 +200,8 @@ void InteriorPoint::settle(const Island& island) {
 
 bool InteriorPoint::reduce(const Island& island, double part) {
   const auto reached = [&] { return gap_ <= part * first_gap_ && infeasibility_ <= feasible; };
-  for (int step = 0; step < most_steps && !reached(); ++step) {
+  double halved = infeasibility_;  // when it was last half of what it had been
+  for (int step = 0, left = patience; step < most_steps && left > 0 && !reached(); ++step) {
     stopped_ = limits_.check(counts_, 0);
     if (stopped_ != MLCP_SOLVED) return false;
     if (!factorize(island)) return false;
@@ -210,6 +215,9 @@ bool InteriorPoint::reduce(const Island& island, double part) {
     find_residual(island);
     ++counts_.pivots;
     if (!std::isfinite(gap_)) return false;
+    const bool nearer = infeasibility_ <= std::max(0.5 * halved, feasible);
+    left = nearer ? patience : left - 1;
+    if (nearer) halved = infeasibility_;
   }
   settle(island);
   return reached();

@@ -13,8 +13,8 @@ class InteriorPoint {
   InteriorPoint(Basis& basis, Limits& limits, Counts& counts) : basis_(basis), limits_(limits), counts_(counts) {}
 
   /// From the impulses and velocities in the basis.  false: M is not positive definite, numbers leave the range of doubles, or a limit is reached.
-  /// delta: as in Proximal, around the point of each step.
-  bool start(const Island& island, double delta);
+  /// delta: as in Proximal, around the point of each step. far: a thousand times as far inside, for impulses that have to grow by so much.
+  bool start(const Island& island, double delta, bool far = false);
   /// Steps until µ is this part of what it was in the beginning.  false: there may be no feasible point, or as in start().
   /// after: rows are active where γ is further from its bounds than the slack from 0, and have that γ; the factor is not theirs.
   bool reduce(const Island& island, double part);
@@ -36,7 +36,7 @@ class InteriorPoint {
   Basis& basis_;
   Limits& limits_;
   Counts& counts_;
-  double first_gap_ = 0, gap_ = 0, delta_ = 0;
+  double first_gap_ = 0, gap_ = 0, delta_ = 0, proximal_ = 0;
   double margin_ = 1, infeasibility_ = 1;
   mlcp_outcome stopped_ = MLCP_SOLVED;
 };

@@ -210,11 +210,17 @@ Newton::Ending Newton::descent(const Island& island) {
 
 /// From the start, centred, along the path of interior points, whose end shows the active set.
 Newton::Ending Newton::interior(const Island& island) {
-  slice(basis_.set.x.data(), island.first, island.last) = slice(basis_.work.center.data(), island.first, island.last);
   InteriorPoint path(basis_, limits_, counts_);
-  const bool reached = path.start(island, delta_) && path.reduce(island, reduced_gap);
-  stopped_ = path.stopped();
-  if (stopped_ != MLCP_SOLVED) return Ending::stopped;
+  const bool reduced = island.last - island.first == island.last_row - island.first_row;
+  bool reached = false;
+  for (const bool far : {false, true}) {
+    if (far && reduced) break;  // large enough impulses make any contradiction of such rows small beside them
+    slice(basis_.set.x.data(), island.first, island.last) = slice(basis_.work.center.data(), island.first, island.last);
+    reached = path.start(island, delta_, far) && path.reduce(island, reduced_gap);
+    stopped_ = path.stopped();
+    if (stopped_ != MLCP_SOLVED) return Ending::stopped;
+    if (reached) break;
+  }
   if (!reached) return Ending::stuck;
   proximal_.center_here(island);
   feasible_ = true;

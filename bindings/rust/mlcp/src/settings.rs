@@ -12,7 +12,7 @@ constants! {
         Auto = MLCP_METHOD_AUTO,
         /// The simplex method of the paper: exact, finite, one row at a time.
         Simplex = MLCP_METHOD_SIMPLEX,
-        /// Many rows at a time: exact, and falls back on the simplex method. Takes a semidefinite M where the solution is finite.
+        /// Many rows at a time: exact, and falls back on the simplex method.
         Newton = MLCP_METHOD_NEWTON,
         /// Projected Gauss-Seidel, for a low accuracy: set a tolerance that it can reach.
         Pgs = MLCP_METHOD_PGS,
