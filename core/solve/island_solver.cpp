@@ -102,10 +102,10 @@ class Run {
     if (end_.outcome == MLCP_ITERATION_LIMIT) pivot_as_singular(trace);
   }
 
-  /// M may be singular but for rounding.
+  /// From rows at rest: M may be singular but for rounding.
   void pivot_as_singular(Array<mlcp_pivot>* trace) {
     const std::int64_t most = input_.settings.max_iterations;
-    if (end_.semidefinite || rows_ == island_.last - island_.first || (most > 0 && end_.counts.pivots >= most)) return;
+    if (rows_ == island_.last - island_.first || (most > 0 && end_.counts.pivots >= most)) return;
     restart();
     pivot_semidefinite(trace);
   }
@@ -135,10 +135,26 @@ class Run {
     end_.method = MLCP_METHOD_SIMPLEX;
     end_.epsilon = 0;
     end_.outcome = simplex.solve(island_, index_, trace);
+    if (end_.outcome == MLCP_SOLVED && leaves_rows()) end_.outcome = MLCP_ITERATION_LIMIT;
     if (end_.outcome == MLCP_INFEASIBLE) settle(simplex);
     if (end_.outcome != MLCP_NOT_POSITIVE_DEFINITE) return;
     end_.indefinite = basis_.factor.failed_position(island_);
     if (rows_ > 0) pivot_semidefinite(trace);  // that may hold what M does not
+  }
+
+  /// Whether rows that pivots have left violated, as they could not move them, are off by more than the tolerance.
+  bool leaves_rows() {
+    ActiveSet& set = basis_.set;
+    const auto deferred = set.deferred.span().subspan(island_.first_row, rows_), kept = basis_.work.state.span().subspan(island_.first_row, rows_);
+    if (std::ranges::find(deferred, 1) == deferred.end()) return false;
+    std::ranges::copy(deferred, kept.begin());
+    std::ranges::fill(deferred, 0);
+    slack_tolerances(island_, *basis_.pattern, basis_.values, input_.settings.tolerance, set);
+    bool left = false;
+    for (std::int32_t o = island_.first_row; o < island_.last_row; ++o) left |= set.violated(o);
+    std::ranges::copy(kept, deferred.begin());
+    slack_tolerances(island_, *basis_.pattern, basis_.values, basis_.zero(), set);
+    return left;
   }
 
   /// The velocity of least violation beside the proof.

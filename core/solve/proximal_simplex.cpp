@@ -73,7 +73,7 @@ mlcp_outcome ProximalSimplex::solve(const Island& island, std::int32_t index, Ar
     const double now = moved(island);
     if (now <= near && solves(island)) return MLCP_SOLVED;
     outcome = now <= near ? MLCP_ITERATION_LIMIT : MLCP_NOT_POSITIVE_DEFINITE;
-    left = now <= 0.5 * before ? patience : left - 1;
+    left = now == 0 ? 0 : now <= 0.5 * before ? patience : left - 1;
     before = now;
   }
   k.regularise(pattern, island, 0, 0);

@@ -78,8 +78,6 @@ MUTATIONS = {
     "diagonal masses: largest residual": ("core/factorize/diagonal_loops.h", "most = off > most ? off : most;", "most = most;"),
     "masses: velocities without any are fixed": ("core/factorize/kkt_values.cpp", "diagonal[q] > 0 ? diagonal[q] : 1;", "diagonal[q] > 0 ? diagonal[q] : infinity;"),
     "proximal simplex: around 0": ("core/factorize/kkt_values.cpp", "    b[p] += more * u[p];\n", ""),
-    "proximal simplex: the first step": ("core/solve/proximal_simplex.cpp", "if (now <= near && solves(island)) return MLCP_SOLVED;", "if (step == 0 && solves(island)) return MLCP_SOLVED;"),
-    "proximal simplex: M + δ stays": ("core/solve/proximal_simplex.cpp", "  k.regularise(pattern, island, 0, 0);\n  return outcome;", "  return outcome;"),
     "refinement: velocities without mass stop": (BASIS, " || values.diagonal[p] == 0", ""),
     "refinement: impulses that nothing asks for": (BASIS, "  if (!widely) return changed;\n", "  return changed;\n"),
     "factor: pivots that rounding has left": (FACTOR, "!(d > rounding * kkt_->factored[p])", "!(d > 0)"),

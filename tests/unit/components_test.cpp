@@ -59,6 +59,24 @@ TEST(Components, AVelocityWhoseOnlyEntryIsOffTheDiagonalIsNotFree) {
   EXPECT_EQ(solve(p, by_default).report.outcome, MLCP_NOT_POSITIVE_DEFINITE);
 }
 
+/// Of a diagonal mass, looked at by eights: any one velocity that a row touches, and any two.
+TEST(Components, FreeVelocitiesOfADiagonalMassAreAllThatNoRowTouches) {
+  constexpr int n = 27;
+  for (int one = 0; one < n; ++one)
+    for (int other = one; other < n; ++other) {
+      mlcp::Problem p = empty_problem();
+      add_body(p, 1, 1);
+      add_sparse_body(p, Eigen::MatrixXd::Identity(n, n));
+      for (const int j : {one, other}) add_row(p, {{1 + j, 1}});
+      mlcp::Components c{mlcp::Memory()};
+      c.update(p, nullptr);
+      std::vector<std::int32_t> expected;
+      for (int j = 0; j <= n; ++j)
+        if (j != 1 + one && j != 1 + other) expected.push_back(j);
+      ASSERT_EQ(free_of(c), expected) << one << ", " << other;
+    }
+}
+
 TEST(Components, AreFoundAgainOnlyWhenThePatternHasChanged) {
   mlcp::Problem p = five_bodies();
   mlcp::Components c{mlcp::Memory()};

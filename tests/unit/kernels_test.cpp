@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -254,6 +255,45 @@ TEST_F(Kernels, ColumnProductsSumInTheOrderOfTheList) {
       ASSERT_EQ(sum, expected) << "seed " << seed;
       ASSERT_EQ(size, sizes) << "seed " << seed;
     }
+}
+
+TEST_F(Kernels, DiagonalsAreSolvedAndMeasuredEntryByEntry) {
+  constexpr double huge = 1.7e308, nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  for (const mlcp::Kernels* kernels : kernels_of_this_cpu())
+    for (int count = 1; count <= 19; ++count)
+      for (int odd = 0; odd < count; ++odd) {
+        Random random(100 * count + odd);
+        std::vector<double> d(count), k(count), x(count);
+        for (int i = 0; i < count; ++i) {
+          d[i] = 1.5 + random.uniform();
+          k[i] = random.uniform();
+        }
+        ASSERT_TRUE(kernels->diagonal_solve(count, d.data(), k.data(), x.data()));
+        double largest = 0, expected = 0.25;
+        for (int i = 0; i < count; ++i) {
+          ASSERT_EQ(x[i], k[i] / d[i]);
+          largest = std::max(largest, std::abs(d[i] * x[i] - k[i]));
+        }
+        double found = 0;
+        EXPECT_TRUE(kernels->diagonal_within(count, d.data(), x.data(), k.data(), 1e-15, &found));
+        EXPECT_EQ(found, largest);
+        x[odd] += expected / d[odd];
+        expected = std::abs(d[odd] * x[odd] - k[odd]);
+        EXPECT_FALSE(kernels->diagonal_within(count, d.data(), x.data(), k.data(), 1e-15, &found));
+        EXPECT_EQ(found, expected);
+        // a residual of which the terms are out of range, and what is no number
+        d[odd] = 1;
+        for (const auto& [velocity, momentum] : {std::pair(huge, huge / 2), {nan, 1.0}, {inf, 1.0}, {1.0, nan}}) {
+          x[odd] = velocity;
+          k[odd] = momentum;
+          EXPECT_FALSE(kernels->diagonal_within(count, d.data(), x.data(), k.data(), 1, &found)) << velocity;
+        }
+        for (const double no_mass : {0.0, -0.0, -1.0}) {
+          d[odd] = no_mass;
+          EXPECT_FALSE(kernels->diagonal_solve(count, d.data(), k.data(), x.data()));
+          EXPECT_EQ(x[odd], 0);
+        }
+      }
 }
 
 }  // namespace

@@ -65,6 +65,33 @@ TEST(SemidefiniteMass, LowRankInABox) {
   }
 }
 
+/// Ties everywhere: entries of M that are mostly 0, k from {−1, 0, 1}, velocities in line. Velocities without mass and without force, impulses and velocities that
+/// are 0 but for rounding.
+TEST(SemidefiniteMass, TiesInABox) {
+  int solved = 0;
+  for (int seed = 0; seed < 1500; ++seed) {
+    Random random(seed);
+    const int n = random.integer(2, 20), rank = random.integer(0, n - 1);
+    const auto seldom = [&] { return random.chance(0.7) ? 0.0 : random.uniform(); };
+    const Eigen::MatrixXd b = Eigen::MatrixXd::NullaryExpr(n, std::max(rank, 1), seldom) * (rank > 0 ? 1 : 0);
+    mlcp::Problem p = empty_problem();
+    add_sparse_body(p, b * b.transpose());
+    for (double& k : p.momentum) k = random.integer(-1, 1);
+    add_box(p);
+    for (int i = random.integer(0, n); i > 0; --i) {
+      const int one = random.integer(0, n - 1), other = random.integer(0, n - 1);
+      if (one != other) add_row(p, {{one, 1}, {other, -1}}, 0);
+    }
+    for (const mlcp_method method : methods) {
+      const Solution s = solve(p, by(method));
+      EXPECT_EQ(s.report.outcome, MLCP_SOLVED) << mlcp_method_text(method) << ", seed " << seed;
+      EXPECT_LE(s.report.largest_error, 1e-12) << mlcp_method_text(method) << ", seed " << seed;
+      solved += s.report.outcome == MLCP_SOLVED;
+    }
+  }
+  EXPECT_EQ(solved, 4500);
+}
+
 /// A velocity without mass that rows hold one way: pushed the other way, it is the one that is named.
 TEST(SemidefiniteMass, WhatNothingHoldsIsNamed) {
   for (const mlcp_method method : methods) {
