@@ -39,6 +39,8 @@ constexpr double lost = 2.5e-19;
 constexpr double brought_about = 4;
 /// |w| up to this, relative to the scale of its error: the row holds.
 constexpr double holds = 1e-9;
+/// Of what counts as zero: well below, so that a slack which is just above it by one sum is so by another.
+constexpr double below = 0.1;
 
 }  // namespace
 
@@ -223,17 +225,29 @@ bool DenseStage::release(DenseIsland& s, double zero, Counts& counts, Result& re
   return any;
 }
 
+/// Rows at rest that are off, though within what counted as zero for the method: it goes on from them.
+/// returns whether there was one; where that leads nowhere the answer stays as it was.
+bool DenseStage::take_in(DenseIsland& s, const Measure& measure, double zero, Counts& counts, Result& result) {
+  bool any = false;
+  for (std::int32_t i = 0; i < s.m && !any; ++i)
+    any = s.state[i] != ActiveSet::active && s.lo[i] < s.hi[i] && s.response(i, i) > 0 && measure.error[s.row[i]] > refined;
+  if (any && DenseNewton(s, below * zero, counts).solve_on()) take_answer(s, result);
+  return any;
+}
+
 /// One step against the residuals that the measurement has found. Once momentum is rounding its residual is left out, as in Refinement: then the
 /// correction is as small as the rows' own residuals.  false: there is nothing to do.
-bool DenseStage::refine(std::int32_t c, const Measure& measure, bool rows_alone, double zero, Result& result) {
+bool DenseStage::refine(std::int32_t c, const Measure& measure, bool again, double zero, Result& result) {
   if (alone_[c]) return false;
   double momentum = 0, rows = 0;
   for (const std::int32_t j : components.velocities_of(c)) momentum = std::max(momentum, measure.velocity_error(j));
   for (const std::int32_t i : components.rows_of(c)) rows = std::max(rows, measure.error[i]);
   if (std::max(momentum, rows) <= refined) return false;
-  rows_alone = momentum <= (rows_alone ? refined : settled);
+  const bool rows_alone = momentum <= (again ? refined : settled);
   if (interior_[c])
     correct_crowded(c, measure, rows_alone, result);
+  else if (again && take_in(response_.island(c), measure, zero, counts_[c], result))
+    released_[c] = 1;
   else
     correct(c, measure, rows_alone, zero, result);
   return true;

@@ -29,8 +29,9 @@ class DenseStage {
   bool solve_crowded(const SolveInput& input, const Mask* start, Watch& watch, std::int32_t c, Result& result);
   bool solve_alone(const Problem& problem, std::int32_t c, Result& result);
   bool is_alone(std::int32_t c) const;
-  bool refine(std::int32_t c, const Measure& measure, bool rows_alone, double zero, Result& result);
+  bool refine(std::int32_t c, const Measure& measure, bool again, double zero, Result& result);
   void correct(std::int32_t c, const Measure& measure, bool rows_alone, double zero, Result& result);
+  static bool take_in(DenseIsland& island, const Measure& measure, double zero, Counts& counts, Result& result);
   static bool release(DenseIsland& island, double zero, Counts& counts, Result& result);
   static void take_answer(const DenseIsland& island, Result& result);
   void correct_crowded(std::int32_t c, const Measure& measure, bool rows_alone, Result& result);

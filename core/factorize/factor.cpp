@@ -10,6 +10,8 @@ namespace {
 constexpr std::int64_t least_rows = 4, most_rows = 16;
 /// Of Mⱼⱼ: a pivot that is no more is what rounding leaves of 0, in a mass that is only semidefinite.
 constexpr double rounding = 0x1p-48;
+/// Pivots of rows up to this, relative to a, are held against what rounding leaves of their terms.
+constexpr double delicate = 1e-7, last_digit = 0x1p-52;
 /// Columns summed at once.
 constexpr std::int32_t most_columns = 32;
 
@@ -154,6 +156,36 @@ void Factor::for_each_sum(std::int32_t first, std::int32_t last, std::int64_t ta
   }
 }
 
+/// Row p, whose pivot is d and which all columns before p are ready for, is rounding beside the rows before it.
+bool Factor::depends(std::int32_t p, double d, double drop) {
+  const double size = std::abs(d), a = kkt_->a[pattern_->row_ordinal[p]];
+  return !(size > drop * a) || (drop > 0 && size <= delicate * a && size <= last_digit * terms(p));
+}
+
+/// Σ yᵢ² aᵢ over rows, Lᵀy = e_p: the terms of d_p = −yᵀ(Σ + J M⁻¹Jᵀ)y, y being what row p and the rows before it do together.
+/// cost: the columns that row p of L has entries in.
+double Factor::terms(std::int32_t p) {
+  double* y = y_.data();
+  double sum = 0;
+  const auto add = [&](std::int32_t j) {
+    if (pattern_->is_row(j)) sum += y[j] * y[j] * kkt_->a[pattern_->row_ordinal[j]];
+  };
+  const std::int32_t top = reach(p, p, p);
+  y[p] = 1;
+  add(p);
+  for (std::int32_t s = p; s-- > top;) {
+    const std::int32_t j = reach_[s];
+    mark_[j] = -1;
+    for (std::int64_t t = symbolic_->pointers[j]; t < symbolic_->pointers[j + 1] && symbolic_->rows[t] <= p; ++t)
+      y[j] -= values_[t] * y[symbolic_->rows[t]];
+    y[j] *= inverse_[j];
+    add(j);
+  }
+  for (std::int32_t s = top; s < p; ++s) y[reach_[s]] = 0;
+  y[p] = 0;
+  return sum;
+}
+
 /// Column p within its run, and its pivot.  false: it is that of a velocity and not positive but for rounding.
 bool Factor::eliminate(std::int32_t first, std::int32_t p, double drop, std::int64_t& work) {
   double* column = values_.data() + symbolic_->pointers[p];
@@ -164,7 +196,7 @@ bool Factor::eliminate(std::int32_t first, std::int32_t p, double drop, std::int
     });
   const double d = pivot_[p];
   if (in_[p] && !pattern_->is_row(p) && !(d > rounding * kkt_->factored[p])) return false;
-  if (in_[p] && pattern_->is_row(p) && !(std::abs(d) > drop * kkt_->a[pattern_->row_ordinal[p]])) {
+  if (in_[p] && pattern_->is_row(p) && depends(p, d, drop)) {
     in_[p] = 0;
     clear_row(p, work);
     std::fill_n(column, rows, 0.0);

@@ -76,6 +76,8 @@ class Factor {
   void subtract(std::int32_t batch, std::int32_t first, std::int64_t& work);
   template <class Visit>
   void for_each_sum(std::int32_t first, std::int32_t last, std::int64_t tail, std::int32_t p, std::int64_t& work, Visit visit);
+  bool depends(std::int32_t p, double d, double drop);
+  double terms(std::int32_t p);
   bool eliminate(std::int32_t first, std::int32_t p, double drop, std::int64_t& work);
   void finish_batch(std::int32_t p, std::int64_t& work);
   void wait(std::int32_t batch);

@@ -9,7 +9,7 @@ constexpr std::int32_t most_velocities = 96, most_rows = 96;
 /// Pivots up to this, relative to their terms, are rounding; so are shares of an impulse.
 constexpr double dependent = 0x1p14 * extended_epsilon, no_share = 0x1p30 * extended_epsilon;
 constexpr int refinements = 2;
-/// What a proof may leave of Jᵀy, relative to its terms: the product of two angles that doubles can tell from 0 is more.
+/// What a proof may leave of Jᵀy, relative to the terms of yᵀA y, both as energies: the product of two angles that doubles can tell from 0 is more.
 constexpr double proven = 0x1p24 * extended_epsilon;
 
 }  // namespace
@@ -134,15 +134,16 @@ std::int32_t ExtendedSimplex::entering_row() {
 }
 
 /// Change of x when the impulse of row k moves by `sign`, refined against K.  true: no velocity moves, which the pivot, a square, cannot tell.
-bool ExtendedSimplex::find_still_step(std::int32_t k, int sign, Counts& counts) {
+/// terms: of that pivot; rows that push soft rows alone move nothing, and what J makes of their rounding is no measure.
+bool ExtendedSimplex::find_still_step(std::int32_t k, int sign, Extended terms, Counts& counts) {
   const KktPattern& pattern = *basis_->pattern;
   const KktValues& values = basis_->values;
   const std::int32_t size = tableau_.size(), first = island_.first;
   for (std::int32_t p = 0; p < size; ++p) step_[p] = tableau_.in(p) ? sign * tableau_(p, position(k)) : Extended{0};
   step_[position(k)] = -sign;
   refine(nullptr, step_.data(), counts);
-  // M dv against |J|ᵀ|y|, in terms of energy
-  for (std::int32_t p = 0; p < size; ++p) rhs_[p] = image_[p] = 0;
+  // M dv = Jᵀy, in terms of energy
+  for (std::int32_t p = 0; p < size; ++p) rhs_[p] = 0;
   for (std::int32_t p = 0; p < size; ++p) {
     if (pattern.is_row(first + p)) continue;
     rhs_[p] += values.diagonal[first + p] * step_[p];
@@ -153,21 +154,17 @@ bool ExtendedSimplex::find_still_step(std::int32_t k, int sign, Counts& counts) 
       rhs_[q] += values.lower[t] * step_[p];
     }
   }
-  for (std::int32_t o = island_.first_row; o < island_.last_row; ++o)
-    for (std::int32_t t = pattern.row_pointers[o]; t < pattern.row_pointers[o + 1]; ++t)
-      image_[pattern.row_columns[t] - first] += magnitude(values.row[t] * step_[position(o)]);
-  Extended moved = 0, pushed = 0;
+  Extended moved = 0;
   for (std::int32_t p = 0; p < size; ++p) {
     if (pattern.is_row(first + p)) continue;
     moved = std::max(moved, rhs_[p] * rhs_[p] / values.diagonal[first + p]);
-    pushed = std::max(pushed, image_[p] * image_[p] / values.diagonal[first + p]);
   }
-  return moved <= proven * proven * pushed;
+  return moved <= proven * proven * terms;
 }
 
 /// y = change of the impulses when that of row k moves: nothing blocks it and no velocity feels it.
 bool ExtendedSimplex::certify(const SolveInput& input, std::int32_t k, int sign, Extended terms, Counts& counts) {
-  if (!find_still_step(k, sign, counts)) return false;
+  if (!find_still_step(k, sign, terms, counts)) return false;
   certificate_rows_ = 0;
   for (std::int32_t o = island_.first_row; o < island_.last_row; ++o) {
     if (o != k && !moves(o, k, terms)) continue;

@@ -46,7 +46,7 @@ class ExtendedSimplex {
   std::int32_t entering_row();
   mlcp_outcome treat(const SolveInput& input, std::int32_t k, Limits& limits, Counts& counts);
   bool moves(std::int32_t j, std::int32_t k, Extended terms) const;
-  bool find_still_step(std::int32_t k, int sign, Counts& counts);
+  bool find_still_step(std::int32_t k, int sign, Extended terms, Counts& counts);
   bool certify(const SolveInput& input, std::int32_t k, int sign, Extended terms, Counts& counts);
   void refine(const double* b, Extended* x, Counts& counts);
   void round();

@@ -24,6 +24,8 @@ constexpr double refined = 1e-13;
 constexpr double rounded = 1e-10, sharper = 1e-2, sharpest_epsilon = 1e-13;
 /// Impulses so many times as large as the right-hand sides ask for are those of a contradiction that is no rounding, divided by ε.
 constexpr double grown = 1e4;
+/// Of the largest right-hand side, rows scaled to a = 1: a slack that is more is not rounding, whatever its terms.
+constexpr double matters = 1e-6;
 constexpr double first_epsilon = 1e-2, reduction = 0.3;
 constexpr int most_descents = 30, most_inner_steps = 60;
 /// Rounding may move a row once more after the refined point.
@@ -87,7 +89,7 @@ Newton::Ending Newton::finish(const Island& island, bool from_x, bool solved) {
   for (int round = 0; round < most_rounds; ++round) {
     const double error = finished_ = basis_.refine(island, counts_, from_x || (round == 0 && solved));
     flips_ = proximal_.flips_of_point(island);
-    if (flips_.empty()) return error <= enough && empty_rows_hold(island) ? Ending::settled : Ending::stuck;
+    if (flips_.empty()) return error <= enough && empty_rows_hold(island) && !impulses_forgive(island) ? Ending::settled : Ending::stuck;
     if (proximal_.epsilon() == 0 || !(error <= refined) || flips_.size() > few) break;
     basis_.change(island, flips_, 0, counts_);  // ties: rows that ε had kept on the other side of their bounds
   }
@@ -103,6 +105,20 @@ bool Newton::empty_rows_hold(const Island& island) const {
     if (set.state[o] == ActiveSet::at_lower ? w < -zero : set.state[o] == ActiveSet::at_upper ? w > zero : std::abs(w) > zero) return false;
   }
   return true;
+}
+
+/// Where no load meets the rows, impulses that grow make any slack small beside their own terms: one that matters beside what the rows ask for is none that
+/// rounding has left.
+bool Newton::impulses_forgive(const Island& island) const {
+  double missing = 0, asked = 0;
+  for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
+    const std::uint8_t state = basis_.set.state[o];
+    if (state == ActiveSet::disabled || basis_.values.lo[o] == basis_.values.hi[o]) continue;
+    const double w = basis_.set.w[o], wrong = state == ActiveSet::at_lower ? -w : state == ActiveSet::at_upper ? w : std::abs(w);
+    missing = std::max(missing, wrong / basis_.values.root_a[o]);
+    asked = std::max(asked, basis_.values.size[basis_.position(o)] / basis_.values.root_a[o]);
+  }
+  return !(missing <= matters * asked);
 }
 
 bool Newton::impulses_grow(const Island& island) const {

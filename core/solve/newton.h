@@ -58,6 +58,7 @@ class Newton {
   Ending minimise(const Island& island);
   Ending finish(const Island& island, bool from_x = false, bool solved = false);
   bool empty_rows_hold(const Island& island) const;
+  bool impulses_forgive(const Island& island) const;
   bool impulses_grow(const Island& island) const;
   void keep(const Island& island);
   void go_back(const Island& island);

@@ -171,6 +171,19 @@ TEST_F(Invariance, RefactorizedAtEveryPivot) {
   });
 }
 
+/// Three rows for a velocity, some of them coupled by Σ, and no solution: columns of rows that come before velocities have entries of both kinds.
+TEST_F(Invariance, CrowdedIslandsWithCoupledRows) {
+  for (const std::uint64_t seed : {8645, 41922, 55521, 62862}) {
+    Random random(seed);
+    const mlcp::Problem p = any_problem(random);
+    mlcp::Settings how = settings();
+    for (const mlcp_method method : {MLCP_METHOD_SIMPLEX, MLCP_METHOD_NEWTON, MLCP_METHOD_AUTO}) {
+      how.method = method;
+      EXPECT_EQ(infeasible_fault(dense(p), solve(p, how)), "") << "method " << method << ' ' << evidence("coupled", seed, p, how);
+    }
+  }
+}
+
 /// One solver for a sequence of problems with the same and other patterns gives what a new solver gives, to the bit.
 TEST_F(Invariance, SolverThatHasSolvedBefore) {
   for (std::uint64_t seed = 70000; seed < 70000u + rounds(200) && !HasFailure(); ++seed) {

@@ -108,6 +108,26 @@ TEST(ExtendedSimplex, ProvesWhatIsImpossibleByALittle) {
   for (const double v : s.v()) EXPECT_TRUE(std::isfinite(v));
 }
 
+/// γ of a compliance of rank one has a direction that nothing answers to: no velocity takes part, and those of other rows are no measure for it.
+TEST(ExtendedSimplex, ProvesContradictionsOfSoftRowsAlone) {
+  mlcp::Problem p = empty_problem();
+  add_body(p, 2, 1);
+  set_k(p, Eigen::Vector2d(0, -1));
+  add_row(p, {{0, 1}, {1, 1}}, 0.3);
+  add_row(p, {{0, 1}, {1, 1.01}}, -0.1);
+  add_row(p, {}, 0.6, bilateral);
+  add_row(p, {}, 0.1, bilateral);
+  const Eigen::Vector4d u(0, 0.6875, 0.375, -0.9375);
+  set_sigma(p, u * u.transpose());
+  mlcp::Mask start{mlcp::Memory()};
+  start.state.assign(4, MLCP_ROW_ACTIVE);
+  Extended s(std::move(p), &start);
+  EXPECT_EQ(s.outcome, MLCP_INFEASIBLE);
+  ASSERT_EQ(s.method.certificate_rows(), 2);
+  const std::span<const std::int32_t> rows(&s.basis.work.certificate_row[0], 2);
+  EXPECT_EQ(certificate_fault(dense(s.problem), rows, {&s.basis.work.certificate_y[0], 2}), "");
+}
+
 TEST(ExtendedSimplex, KeepsToItsLimits) {
   const Extended s(wedge(1e-8), nullptr, 1);
   EXPECT_EQ(s.outcome, MLCP_ITERATION_LIMIT);

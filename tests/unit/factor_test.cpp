@@ -114,6 +114,46 @@ TEST(Factor, CrowdedIslandsWithCoupledRowsAreThoseOfTheDenseMatrix) {
   EXPECT_GT(mixed, 100);
 }
 
+/// A = B Bᵀ of rank 2 with two rows an angle δ apart: the pivot of the third is 0 and comes out as a rounding of A over δ².
+TEST(Factor, PivotsThatAreRoundingBesideTheirTermsAreDropped) {
+  int above = 0;
+  for (int seed = 0; seed < 200; ++seed) {
+    Random random(seed);
+    Eigen::MatrixXd B(3, 2);
+    for (int j = 0; j < 2; ++j) {
+      B(0, j) = random.integer(20, 60) / 64.0;
+      B(1, j) = 1.5 * B(0, j) + random.integer(1, 3) * (2 * j - 1) / 512.0;
+      B(2, j) = random.integer(-60, 60) / 64.0;
+    }
+    const mlcp::Problem p = reduced_problem(B * B.transpose(), Eigen::Vector3d::Zero());
+    Stage stage(p);
+    const std::vector<std::uint8_t> all(3, 1);
+    const auto in = [&] {
+      int count = 0;
+      for (const int q : stage.row_positions()) count += stage.factor.in(q);
+      return count;
+    };
+    ASSERT_EQ(stage.factorize(all, 1e-13), mlcp::FactorStatus::ok);
+    EXPECT_EQ(in(), 2) << "seed " << seed;
+    ASSERT_EQ(stage.factorize(all, 0), mlcp::FactorStatus::ok);
+    for (int q = 0; q < 3; ++q) above += stage.factor.in(q) && std::abs(stage.factor.pivot(q)) <= 1e-11 * stage.values.a[q] && std::abs(stage.factor.pivot(q)) > 1e-13 * stage.values.a[q];
+  }
+  EXPECT_GE(above, 10) << "pivots alone do not tell";
+}
+
+/// A row an angle of 1e-6 from another has a pivot of 1e-12 a, and is independent.
+TEST(Factor, SmallPivotsOfIndependentRowsStay) {
+  for (const double angle : {1e-3, 1e-4, 1e-5, 1e-6}) {
+    mlcp::Problem p = empty_problem();
+    add_body(p, 2, 1);
+    add_row(p, {{0, 1}});
+    add_row(p, {{0, 1}, {1, angle}});
+    Stage stage(p);
+    ASSERT_EQ(stage.factorize(std::vector<std::uint8_t>(4, 1), 1e-13), mlcp::FactorStatus::ok);
+    for (const int q : stage.row_positions()) EXPECT_TRUE(stage.factor.in(q)) << angle;
+  }
+}
+
 TEST(Factor, ChainsEqualDenseElimination) {
   for (const int links : {1, 2, 7, 40}) {
     Random random(links);
