@@ -70,8 +70,9 @@ bool DenseSimplex::drop_beyond_bounds() {
   return any;
 }
 
+/// Of all rows, since those that are in now may have left when the scale of their slack is asked for.
 void DenseSimplex::find_slacks() {
-  DenseResponse::slacks(s_, ActiveSet::active);
+  DenseResponse::slacks(s_, ActiveSet::disabled);
   for (std::int32_t i = 0; i < s_.m; ++i)
     if (is_in(i)) s_.w[i] = 0;
   counts_.work += static_cast<std::int64_t>(s_.m) * s_.m;

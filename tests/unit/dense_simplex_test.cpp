@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "support/random_problem.h"
@@ -75,6 +76,25 @@ TEST(DenseSimplex, EndsWithEveryRowWhereItBelongs) {
   }
   EXPECT_EQ(tally.solved, tally.islands);
   EXPECT_GT(tally.pivoted, 300);
+}
+
+/// A row that leaves is held against the scale of its slack: no part of that may be what stood in memory.
+TEST(DenseSimplex, FindsTheScalesOfRowsThatAreInToo) {
+  mlcp::Problem p = empty_problem();
+  constexpr int rows = 8;
+  for (int j = 0; j <= rows; ++j) add_body(p, 1, 1);
+  for (int i = 0; i < rows; ++i) add_row(p, {{i, 1}, {i + 1, -1}}, i % 3, {-100, 100});
+  mlcp::Components components{mlcp::Memory()};
+  components.update(p, nullptr);
+  mlcp::DenseResponse response{mlcp::Memory()};
+  response.prepare(p, components);
+  ASSERT_TRUE(response.compute(p, 0));
+  mlcp::DenseIsland& s = response.island(0);
+  std::fill(s.state, s.state + s.m, mlcp::ActiveSet::active);
+  std::fill(s.scale, s.scale + s.m, mlcp::infinity);
+  mlcp::Counts counts;
+  ASSERT_TRUE(mlcp::DenseSimplex(s, zero, counts).solve());
+  for (int i = 0; i < s.m; ++i) EXPECT_LT(s.scale[i], 1000) << i;
 }
 
 }  // namespace
