@@ -9,6 +9,7 @@
 #include <set>
 
 #include "scenes/scenes.h"
+#include "support/scratch_folder.h"
 
 namespace cli {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 class BenchCommand : public testing::Test {
  protected:
   void SetUp() override {
-    path_ = std::filesystem::temp_directory_path() /
+    path_ = support::scratch_folder() /
             (std::string("mlcp_bench_") + testing::UnitTest::GetInstance()->current_test_info()->name() + ".mlcp");
     char message[512];
     scenes::check(mlcp_snapshot_save(path_.c_str(), scenes::rope(10).get(), nullptr, nullptr, nullptr, message, sizeof message), message);

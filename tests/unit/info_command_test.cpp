@@ -9,6 +9,7 @@
 
 #include "cli/problem_folder.h"
 #include "scenes/scenes.h"
+#include "support/scratch_folder.h"
 
 namespace cli {
 namespace {
@@ -42,7 +43,7 @@ class InfoCommand : public testing::Test {
   }
 
   const std::string name_ = std::string("mlcp_info_") + testing::UnitTest::GetInstance()->current_test_info()->name();
-  const fs::path folder_ = fs::temp_directory_path() / name_, snapshot_ = fs::temp_directory_path() / (name_ + ".mlcp");
+  const fs::path folder_ = support::scratch_folder() / name_, snapshot_ = support::scratch_folder() / (name_ + ".mlcp");
 };
 
 TEST_F(InfoCommand, names_contacts_coefficients_and_models_of_a_snapshot) {

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "cli/text_file.h"
+#include "support/scratch_folder.h"
 
 namespace cli {
 namespace {
@@ -124,7 +125,7 @@ TEST(MatrixMarket, every_double_survives_writing_and_reading) {
 }
 
 TEST(MatrixMarket, reads_compressed_files_and_notices_truncated_ones) {
-  const auto path = std::filesystem::temp_directory_path() / "mlcp_matrix_market_test.mtx.gz";
+  const auto path = support::scratch_folder() / "mlcp_matrix_market_test.mtx.gz";
   std::string text = coordinate + "100 1 100\n";
   for (int i = 1; i <= 100; ++i) text += std::to_string(i) + " 1 " + std::to_string(i * i * 0.37) + "\n";
   const gzFile file = gzopen(path.c_str(), "wb");

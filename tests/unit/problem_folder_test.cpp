@@ -10,6 +10,7 @@
 #include "cli/survey.h"
 #include "cli/text_file.h"
 #include "scenes/scenes.h"
+#include "support/scratch_folder.h"
 
 namespace cli {
 namespace {
@@ -21,7 +22,7 @@ class ProblemFolder : public testing::Test {
  protected:
   void SetUp() override {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / (std::string("mlcp_problem_folder_") + test->name());
+    folder_ = support::scratch_folder() / (std::string("mlcp_problem_folder_") + test->name());
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }

@@ -4,6 +4,7 @@
 
 #include "cli/fclib_file.h"
 #include "cli/problem_folder.h"
+#include "support/scratch_folder.h"
 
 namespace cli {
 namespace {
@@ -48,7 +49,7 @@ std::vector<double> impulses(const ProblemFile& file) {
 struct ProblemForms : testing::TestWithParam<bool> {
   Friction coulomb{MLCP_FRICTION_COULOMB, 0};
   ProblemFile file = make_problem(example(GetParam()), coulomb);
-  fs::path path = fs::temp_directory_path() / ("mlcp_problem_form_" + std::string(GetParam() ? "reduced" : "global"));
+  fs::path path = support::scratch_folder() / ("mlcp_problem_form_" + std::string(GetParam() ? "reduced" : "global"));
 
   ProblemForms() { fs::remove_all(path); }
   ~ProblemForms() override { fs::remove_all(path); }

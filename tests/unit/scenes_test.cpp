@@ -1,4 +1,5 @@
 #include "scenes/scenes.h"
+#include "support/scratch_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -225,7 +226,7 @@ TEST(Scenes, the_gallery_refuses_what_it_does_not_have) {
 }
 
 TEST(Scenes, a_recorded_step_replays_to_the_same_bits) {
-  const auto folder = std::filesystem::temp_directory_path() / "mlcp_scenes_test";
+  const auto folder = support::scratch_folder() / "mlcp_scenes_test";
   Rope recorded(30);
   ASSERT_EQ(record(recorded, 3, folder), 3);
   Rope again(30);
