@@ -8,7 +8,6 @@ namespace {
 /// Every lane: not 0 for yes.
 typedef std::int64_t FourFlags __attribute__((vector_size(32)));
 
-inline void take_sizes(const Four& f, Four& to) { to = reinterpret_cast<Four>(reinterpret_cast<FourFlags>(f) & INT64_MAX); }
 inline bool any(const FourFlags& f) { return (f[0] | f[1] | f[2] | f[3]) != 0; }
 
 bool diagonal_solve(std::int64_t count, const double* d, const double* k, double* x) {
@@ -30,30 +29,24 @@ bool diagonal_solve(std::int64_t count, const double* d, const double* k, double
 }
 
 bool diagonal_within(std::int64_t count, const double* d, const double* x, const double* k, double bound, double* largest) {
-  const Four limit = Four{} + __builtin_inf();
+  const double limit = __builtin_inf();
   Four most = Four{} + *largest;
   FourFlags beyond{};
-  const auto look = [&](const Four& di, const Four& xi, const Four& ki) {
-    const Four term = di * xi;
-    Four off, size, more;
-    take_sizes(term - ki, off);
-    take_sizes(term, size);
-    take_sizes(ki, more);
-    size += more;
+  std::int64_t i = 0;
+  for (; i + 4 <= count; i += 4) {
+    const Four ki = *reinterpret_cast<const Four*>(k + i), term = *reinterpret_cast<const Four*>(d + i) * *reinterpret_cast<const Four*>(x + i);
+    const Four rest = term - ki, off = rest < 0 ? -rest : rest, size = (term < 0 ? -term : term) + (ki < 0 ? -ki : ki);
     most = off > most ? off : most;
     beyond |= ~((off <= bound * size) & (size < limit));
-  };
-  std::int64_t i = 0;
-  for (; i + 4 <= count; i += 4) look(*reinterpret_cast<const Four*>(d + i), *reinterpret_cast<const Four*>(x + i), *reinterpret_cast<const Four*>(k + i));
-  if (i < count) {
-    Four di, xi, ki;
-    load_part(d + i, count - i, di);
-    load_part(x + i, count - i, xi);
-    load_part(k + i, count - i, ki);
-    look(di, xi, ki);
   }
+  bool within = !any(beyond);
   for (int lane = 0; lane < 4; ++lane) *largest = most[lane] > *largest ? most[lane] : *largest;
-  return !any(beyond);
+  for (; i < count; ++i) {
+    const double term = d[i] * x[i], off = size_of(term - k[i]), size = size_of(term) + size_of(k[i]);
+    *largest = off > *largest ? off : *largest;
+    within &= (off <= bound * size) & (size < limit);
+  }
+  return within;
 }
 
 }  // namespace

@@ -73,7 +73,7 @@ MUTATIONS = {
     "masses: negative diagonals": ("core/assemble/bodies.cpp", "right &= (values[j] >= 0) & (values[j] < infinity)", "right &= (values[j] < infinity)"),
     "masses: any pattern is diagonal": ("core/assemble/symmetric.cpp", "off |= a.row_indices[j] ^ j;", "off |= 0;"),
     "errors: free velocities forgotten": ("core/measure/errors.cpp", "  free_momentum(problem, free_velocities, v, e);", ""),
-    "diagonal masses: momenta beyond doubles": ("core/factorize/diagonal_loops.h", "(off <= bound * size) & (size < limit)", "off <= bound * size"),
+    "diagonal masses: momenta beyond doubles": ("core/factorize/diagonal_loops.h", "~((off <= bound * size) & (size < limit))", "~(off <= bound * size)"),
     "diagonal masses: zeros": ("core/factorize/diagonal_loops.h", "  bool all = !any(wrong);", "  bool all = true;"),
     "diagonal masses: largest residual": ("core/factorize/diagonal_loops.h", "most = off > most ? off : most;", "most = most;"),
     "masses: velocities without any are fixed": ("core/factorize/kkt_values.cpp", "diagonal[q] > 0 ? diagonal[q] : 1;", "diagonal[q] > 0 ? diagonal[q] : infinity;"),
