@@ -34,7 +34,7 @@ struct Body {
   std::int32_t dimension = 0;
   std::int32_t prescribed = 0; ///< 1: the velocity is given
   std::int32_t sparse = 0;     ///< 0: dense mass; else 1 + the mlcp_triangle that the caller stores
-  std::int32_t diagonal = 0;   ///< 1: of every column the diagonal entry is there and nothing else, zeros included
+  std::int32_t diagonal = 0;   ///< 1: every column has its diagonal entry, which may be 0, and no other
 };
 
 /// Of a pyramid: directions 6 µrad apart at least, whose products with small numbers are in range.

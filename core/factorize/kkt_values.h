@@ -6,7 +6,7 @@
 
 namespace mlcp {
 
-/// Of the largest Mⱼⱼ: the δ that is added to all of them where M is only semidefinite.
+/// Of each Mⱼⱼ, of the largest where that is 0: the δ that is added where M is only semidefinite.
 constexpr double semidefinite_delta = 1e-8;
 
 /// The numbers of one step in elimination order: K x = b with x = (v, −γ), prescribed velocities moved into b.
@@ -30,9 +30,10 @@ struct KktValues {
   void load(const Problem& problem, const KktPattern& pattern);
   /// Σᵢᵢ := Σᵢᵢ + amount · aᵢ on the rows first .. last − 1; amount 0 restores the caller's Σ.
   void soften(const Problem& problem, const KktPattern& pattern, std::int32_t first, std::int32_t last, double amount);
-  /// What the factor takes in on an island from now on: −(Σᵢᵢ + ε aᵢ) on rows, Mⱼⱼ + δ max M on velocities. K itself stays.
+  /// What the factor takes in on an island from now on: −(Σᵢᵢ + ε aᵢ) on rows, Mⱼⱼ + δ Mⱼⱼ on velocities, or δ max M where
+  /// Mⱼⱼ is 0. K itself stays.
   void regularise(const KktPattern& pattern, const Island& island, double epsilon, double delta);
-  /// The numbers of the problem with ½δ|v − u|² added, |.| in units of max M: its M and k, for the factor as well. u: by position.
+  /// The numbers of the problem with ½ Σ δⱼ(v − u)ⱼ² added, δⱼ as in regularise(): its M and k, for the factor as well. u: by position.
   void add_proximal_mass(const KktPattern& pattern, const Island& island, double delta, const double* u);
   /// Those of the problem itself again; the factor stays that of M + δ.
   void take_proximal_mass_away(const Problem& problem, const KktPattern& pattern, const Island& island);
