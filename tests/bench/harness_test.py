@@ -157,7 +157,7 @@ class Workers(unittest.TestCase):
 
 class Sequences(unittest.TestCase):
     def test_warm_steps_solve_as_cold_ones_do(self):
-        steps = families.pile_steps(LIBRARY, 10, 4)
+        steps = families.Recording("pile", 10, 0).steps(LIBRARY, 0, count=4)
         for warm in (True, False):
             _, errors, outcomes, oracle = LIBRARY.sequence(steps, 0, 1e-9, warm, oracle=True)
             self.assertTrue(np.all(outcomes == library.SOLVED))

@@ -6,7 +6,7 @@ import re
 import sys
 from pathlib import Path
 
-from . import candidates, families, figures, plots, rounds, tables
+from . import candidates, families, figures, plots, rounds, sequences, tables
 from .library import Library
 from .peers import all_peers, native as native_peers
 from .worker import keep_freed_memory
@@ -34,7 +34,7 @@ def arguments():
 def sources(options, folder):
     """The problems to compare on, real ones first."""
     found = families.shared(folder) if folder else []
-    found += families.scenes()
+    found += families.scenes() + families.machines()
     if options.quick:
         found = [source for source in found if source.name in families.QUICK]
     elif options.only:
@@ -93,6 +93,7 @@ def main():
     report = [head(library, peers, missing), "## Problems\n", tables.summary(rows), "## Solvers\n", tables.solvers(rows),
               "## Wrong answers that claim success\n", tables.wrong(rows)]
     if not options.only:
+        report += ["## Warm sequences\n", sequences.table(sequences.all_of(library, folder, options.quick))]
         every = [*figures.from_rows(rows), *figures.measured_alone(library, native, folder, options.quick)]
         report += ["## Figures\n", figures.markdown(every)]
     text = "\n".join(report)

@@ -1,8 +1,6 @@
 """The problems: real ones from a folder, scenes of any size."""
 import csv
-import tempfile
 from dataclasses import dataclass, field
-from pathlib import Path
 
 from .problem import Problem
 
@@ -13,7 +11,9 @@ SCENES = {
     "tower": (10, 50),                                  # boxes
     "islands": (100, 400),                              # piles of 30 contacts beside each other
 }
-QUICK = ("mug", "humanoid_fall", "pile 30", "pile 300", "rope 100", "wall 5", "islands 10")
+STEPS = 100   # of a recorded sequence
+FACETS = 8    # of the pyramid that peers know a friction cone as; scenes have the same by default
+QUICK = ("mug", "humanoid_fall", "pile 30", "pile 300", "rope 100", "wall 5", "islands 10", "gripper 8, friction")
 
 
 @dataclass
@@ -48,8 +48,49 @@ def recorded(folder, library):
         yield sequence.name, [library.read(step) for step in sorted(sequence.iterdir()) if step.is_dir()]
 
 
-def pile_steps(library, spheres, steps):
-    """Handles of consecutive steps of a settled pile."""
-    with tempfile.TemporaryDirectory() as folder:
-        library.record_pile(spheres, steps, folder)
-        return [library.read(path) for path in sorted(Path(folder).glob("*.mlcp"))]
+@dataclass(frozen=True)
+class Recording:
+    """STEPS steps of a scene of examples/scenes, from where it does what it is for."""
+    scene: str
+    size: int
+    first: int
+    h: float = 0.01     # s
+    count: int = 1      # scenes beside each other that begin differently
+    rubs: bool = False  # has contacts with friction
+
+    @property
+    def name(self):
+        return f"{self.scene} {self.size}" if self.count == 1 else f"{self.count} times {self.scene} {self.size}"
+
+    def steps(self, library, facets, first=0, count=STEPS):
+        """Handles of steps first .. first + count − 1 of the recording; the caller owns them."""
+        scenes = [library.record(self.scene, self.size, seed, self.h, self.first + first, count) for seed in range(1, self.count + 1)]
+        steps = []
+        for together in zip(*scenes):
+            plain = [library.plain(one, facets) for one in together]
+            steps.append(library.join(plain) if self.count > 1 else plain[0])
+            for handle in (*together, *(plain if self.count > 1 else ())):
+                library.destroy(handle)
+        return steps
+
+
+# machines are driven, what falls has met what it falls on
+MACHINES = (Recording("gripper", 8, 60, rubs=True), Recording("bottles", 24, 300, rubs=True), Recording("cascade", 100, 100, rubs=True),
+            Recording("wall_of_boxes", 5, 20, rubs=True), Recording("linkage", 1, 20), Recording("table", 1, 10), Recording("rope_over_pegs", 30, 40))
+SEQUENCES = (Recording("pile", 1000, 0), Recording("pile", 10, 0, count=100), Recording("rope", 1000, 0, h=1e-3), Recording("wall", 10, 0),
+             Recording("tower", 10, 0), *MACHINES)
+
+
+def variants(recording):
+    """Name and facets: without friction, and with where there is some."""
+    yield recording.name, 0
+    if recording.rubs:
+        yield f"{recording.name}, friction", FACETS
+
+
+def machines():
+    """The step in the middle of each recording."""
+    def make(library, recording, facets):
+        return recording.steps(library, facets, STEPS // 2, 1)[0]
+    return [Source(name, "machine", lambda library, recording=recording, facets=facets: make(library, recording, facets))
+            for recording in MACHINES for name, facets in variants(recording)]

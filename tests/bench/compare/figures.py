@@ -3,7 +3,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import families, library as lib, soft, soft_models, tables
+from . import families, library as lib, sequences, soft, soft_models, tables
 from .problem import Problem
 
 ROBOT, ROBOTS, SPHERES = "humanoid_fall", "humanoids22", "spheres_356"
@@ -123,45 +123,21 @@ def measured_alone(library, native, problems, quick):
 
 
 def _sequences(library, problems, quick):
-    steps = families.pile_steps(library, 100 if quick else 1000, 10 if quick else 100)
-    try:
-        yield _warm_against_oracle(library, steps)
-    finally:
-        for handle in steps:
-            library.destroy(handle)
+    pile = families.Recording("pile", 100 if quick else 1000, 0)
+    yield _warm_against_oracle(sequences.of_recording(library, pile, 10 if quick else families.STEPS)[0])
     title = "warm ÷ cold, medians over the steps of a recorded sequence"
     if problems is None:
         yield Figure(title, "≤ 0.5", "≤ 0.2", "left out: no real problems")
         return
-    ratios = {}
-    for name, handles in families.recorded(problems, library):
-        ratios[name] = _warm_and_cold(library, handles)[0]
-        for handle in handles:
-            library.destroy(handle)
-    yield Figure(title, "≤ 0.5", "≤ 0.2", f"{np.median(list(ratios.values())):.2g}",
-                 ", ".join(f"{name} {ratio:.2g}" for name, ratio in ratios.items()))
+    real = list(sequences.real(library, problems))
+    yield Figure(title, "≤ 0.5", "≤ 0.2", f"{np.median([one.to_cold for one in real]):.2g}",
+                 ", ".join(f"{one.name} {one.to_cold:.2g}" for one in real))
 
 
-def _warm_and_cold(library, handles, passes=5):
-    """Median over the steps but the first of warm ÷ cold, each the median of passes in turns; the largest error."""
-    warm, cold, errors = [], [], []
-    for _ in range(passes):
-        for is_warm, kept in ((True, warm), (False, cold)):
-            seconds, error, _, _ = library.sequence(handles, DEFAULT, TOLERANCE, is_warm)
-            kept.append(seconds[1:])
-            errors.append(np.max(error))
-    return float(np.median(np.median(warm, axis=0) / np.median(cold, axis=0))), max(errors)
-
-
-def _warm_against_oracle(library, handles):
-    passes = [library.sequence(handles, DEFAULT, TOLERANCE, True, oracle=True) for _ in range(3)]
-    warm, oracle = (np.median([one[i][1:] for one in passes], axis=0) for i in (0, 3))
-    worst = max(np.max(one[1]) for one in passes)
-    ratio, _ = _warm_and_cold(library, handles, passes=3)
-    contacts = library.rows(handles[-1])
-    return Figure("pile, next step of the scene, warm: ours ÷ oracle", "≤ 1.5", "≤ 0.8", f"{np.median(warm / oracle):.2g}",
-                  f"{len(handles)} steps, {contacts} contacts: warm {tables.duration(float(np.median(warm)))}, oracle "
-                  f"{tables.duration(float(np.median(oracle)))} without analysis, warm ÷ cold {ratio:.2g}, largest error {worst:.0e}")
+def _warm_against_oracle(pile):
+    return Figure("pile, next step of the scene, warm: ours ÷ oracle", "≤ 1.5", "≤ 0.8", f"{pile.to_oracle:.2g}",
+                  f"{pile.steps} steps, {pile.rows} contacts: warm {tables.duration(pile.warm)}, oracle {tables.duration(pile.oracle)} without analysis, "
+                  f"warm ÷ cold {pile.to_cold:.2g}, largest error {pile.error:.0e}")
 
 
 def _soft(library, turns):

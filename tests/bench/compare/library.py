@@ -33,7 +33,8 @@ class Library:
         for name, result, *arguments in (
                 ("bench_error", text), ("mlcp_version", text), ("mlcp_method_text", text, i32),
                 ("bench_scene", handle, text, i32), ("bench_read", handle, text),
-                ("bench_record_pile", c.c_int, i32, i32, text),
+                ("bench_record", c.c_int, text, i32, c.c_uint32, c.c_double, i32, i32, handle), ("bench_plain", handle, handle, i32),
+                ("bench_join", handle, handle, i32),
                 ("mlcp_problem_create", i32, handle, handle), ("mlcp_problem_error", text, handle),
                 ("mlcp_problem_body_add_sparse", i32, handle, i32, handle, handle, handle, i32, handle),
                 ("mlcp_problem_set_momentum", i32, handle, i32, i32, doubles),
@@ -99,8 +100,19 @@ class Library:
             raise RuntimeError(self._lib.mlcp_problem_error(handle).decode())
         return handle.value
 
-    def record_pile(self, spheres, steps, folder):
-        self._check(self._lib.bench_record_pile(spheres, steps, str(folder).encode()))
+    def record(self, scene, size, seed, h, first, steps):
+        """Handles of consecutive steps as the scene made them."""
+        handles = (c.c_void_p * steps)()
+        self._check(self._lib.bench_record(scene.encode(), size, seed, h, first, steps, handles))
+        return list(handles)
+
+    def plain(self, handle, facets):
+        """Without contacts and prescribed bodies: a pyramid of so many facets for every friction cone, 0: frictionless."""
+        return self._handle(self._lib.bench_plain(handle, facets))
+
+    def join(self, handles):
+        """Side by side."""
+        return self._handle(self._lib.bench_join((c.c_void_p * len(handles))(*handles), len(handles)))
 
     def sequence(self, handles, method, tolerance, warm, oracle=False):
         """Seconds, errors, outcomes, and seconds of the oracle (None without), a number a step."""

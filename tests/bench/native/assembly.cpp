@@ -16,33 +16,33 @@ mlcp_matrix_view view_of(mlcp_status (*get)(const mlcp_problem*, mlcp_matrix_vie
 
 std::int32_t length(const auto& array) { return static_cast<std::int32_t>(array.size()); }
 
-/// The number of every row among those that stay, −1: a tangent of a contact.
-std::vector<std::int32_t> without_tangents(const mlcp_problem* problem) {
-  std::vector<std::int32_t> number(static_cast<std::size_t>(mlcp_problem_row_count(problem)));
-  const std::int32_t contacts = mlcp_problem_contact_count(problem);
-  std::vector<std::int32_t> row(static_cast<std::size_t>(contacts)), dimension = row;
-  check(mlcp_problem_get_contacts(problem, contacts, row.data(), dimension.data(), nullptr, nullptr, nullptr));
-  for (std::int32_t c = 0; c < contacts; ++c) std::fill_n(number.begin() + row[c] + 1, dimension[c] - 1, -1);
-  std::int32_t count = 0;
-  for (std::int32_t& i : number)
-    if (i == 0) i = count++;
-  return number;
-}
-
 }  // namespace
 
-Assembly::Assembly(const mlcp_problem* problem) {
-  const std::int32_t n = mlcp_problem_velocity_count(problem), m = mlcp_problem_row_count(problem);
+Assembly::Assembly(const mlcp_problem* problem, std::int32_t facets) {
+  const std::vector<Velocity> velocity = take_bodies(problem);
+  rows_ = PlainRows(problem, velocity, facets);
+  take_compliance(problem);
+}
+
+std::vector<Velocity> Assembly::take_bodies(const mlcp_problem* problem) {
+  const std::int32_t n = mlcp_problem_velocity_count(problem);
   const mlcp_matrix_view mass = view_of(mlcp_problem_mass, problem);
+  std::vector<double> k(static_cast<std::size_t>(n));
+  check(mlcp_problem_get_momentum(problem, n, k.data()));
   std::vector<std::int32_t> ids(static_cast<std::size_t>(mlcp_problem_body_count(problem)));
   std::int32_t count = 0;
   check(mlcp_problem_bodies(problem, length(ids), ids.data(), &count));
+  std::vector<Velocity> velocity(k.size());
+  std::vector<double> given;
   for (const std::int32_t id : ids) {
     std::int32_t offset = 0, prescribed = 0;
     Body body{0, false, mass_.size(), {0}, {}};
     check(mlcp_problem_body_range(problem, id, &offset, &body.dimension));
-    check(mlcp_problem_body_state(problem, id, &prescribed, 0, nullptr));
-    if (prescribed) throw std::runtime_error("prescribed bodies are not benchmarked");
+    given.resize(static_cast<std::size_t>(body.dimension));
+    check(mlcp_problem_body_state(problem, id, &prescribed, body.dimension, given.data()));
+    for (std::int32_t j = 0; j < body.dimension; ++j) velocity[offset + j] = {prescribed ? -1 : length(k_) + j, given[j]};
+    if (prescribed) continue;
+    k_.insert(k_.end(), k.begin() + offset, k.begin() + offset + body.dimension);
     std::vector<std::pair<std::int32_t, double>> column;
     for (std::int32_t j = offset; j < offset + body.dimension; ++j) {
       column.clear();
@@ -61,37 +61,32 @@ Assembly::Assembly(const mlcp_problem* problem) {
     }
     bodies_.push_back(std::move(body));
   }
-  k_.resize(static_cast<std::size_t>(n));
-  check(mlcp_problem_get_momentum(problem, n, k_.data()));
+  return velocity;
+}
 
-  const std::vector<std::int32_t> number = without_tangents(problem);
-  const mlcp_matrix_view jacobian = view_of(mlcp_problem_jacobian, problem);
-  std::vector<double> r(static_cast<std::size_t>(m)), lo = r, hi = r, compliance = r;
-  std::vector<std::uint64_t> key(r.size());
-  check(mlcp_problem_get_rows(problem, m, r.data(), lo.data(), hi.data(), compliance.data(), key.data()));
-  for (std::int32_t i = 0; i < m; ++i) {
-    if (number[i] < 0) continue;
-    columns_.insert(columns_.end(), jacobian.indices + jacobian.pointers[i], jacobian.indices + jacobian.pointers[i + 1]);
-    jacobian_.insert(jacobian_.end(), jacobian.values + jacobian.pointers[i], jacobian.values + jacobian.pointers[i + 1]);
-    row_pointers_.push_back(length(columns_));
-    r_.push_back(r[i]);
-    lo_.push_back(lo[i]);
-    hi_.push_back(hi[i]);
-    compliance_.push_back(compliance[i]);
-    key_.push_back(key[i]);
-  }
-
+/// Σ where it is not diagonal.
+void Assembly::take_compliance(const mlcp_problem* problem) {
   const mlcp_matrix_view sigma = view_of(mlcp_problem_compliance, problem);
+  std::vector<std::int32_t> number(static_cast<std::size_t>(sigma.columns), -1);
+  for (std::int32_t i = 0; i < length(rows_.source); ++i)
+    if (rows_.source[i] >= 0) number[rows_.source[i]] = i;
   bool diagonal = true;
+  const auto add = [&](std::int32_t i, std::int32_t j, double value) {
+    diagonal &= i == j;
+    sigma_indices_.push_back(i);
+    sigma_.push_back(value);
+  };
+  auto block = rows_.compliant.begin();
   sigma_pointers_.push_back(0);
-  for (std::int32_t j = 0; j < sigma.columns; ++j) {
-    if (number[j] < 0) continue;
-    for (std::int32_t e = sigma.pointers[j]; e < sigma.pointers[j + 1]; ++e) {
-      const std::int32_t i = sigma.indices[e];
-      if (number[i] < 0) continue;
-      diagonal &= i == j;
-      sigma_indices_.push_back(number[i]);
-      sigma_.push_back(sigma.values[e]);
+  for (std::int32_t j = 0; j < length(rows_.source); ++j) {
+    while (block != rows_.compliant.end() && j >= block->first + block->count) ++block;
+    if (const std::int32_t row = rows_.source[j]; row >= 0) {
+      for (std::int32_t e = sigma.pointers[row]; e < sigma.pointers[row + 1]; ++e)
+        if (number[sigma.indices[e]] >= 0) add(number[sigma.indices[e]], j, sigma.values[e]);
+    } else if (block != rows_.compliant.end() && j >= block->first) {
+      for (std::int32_t k = 0; k < block->count; ++k) add(block->first + k, j, block->sigma[static_cast<std::size_t>(k * block->count + j - block->first)]);
+    } else {
+      add(j, j, 0);
     }
     sigma_pointers_.push_back(length(sigma_indices_));
   }
@@ -101,24 +96,25 @@ Assembly::Assembly(const mlcp_problem* problem) {
   sigma_.clear();
 }
 
-void Assembly::append(const Assembly& other) {
+void Assembly::append(const Assembly& other, std::uint64_t which) {
   if (!sigma_.empty() || !other.sigma_.empty()) throw std::runtime_error("only problems with a diagonal compliance go side by side");
-  const std::int32_t n = length(k_), entries = length(columns_);
+  const std::int32_t n = length(k_), entries = length(rows_.columns);
   for (Body body : other.bodies_) {
     body.first += mass_.size();
     bodies_.push_back(std::move(body));
   }
-  for (const std::int32_t column : other.columns_) columns_.push_back(n + column);
-  for (std::size_t i = 1; i < other.row_pointers_.size(); ++i) row_pointers_.push_back(entries + other.row_pointers_[i]);
+  for (const std::int32_t column : other.rows_.columns) rows_.columns.push_back(n + column);
+  for (std::size_t i = 1; i < other.rows_.pointers.size(); ++i) rows_.pointers.push_back(entries + other.rows_.pointers[i]);
+  for (const std::uint64_t key : other.rows_.key) rows_.key.push_back(key == 0 ? 0 : key ^ (which * 0x9e3779b97f4a7c15u));
   const auto join = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
   join(mass_, other.mass_);
   join(k_, other.k_);
-  join(jacobian_, other.jacobian_);
-  join(r_, other.r_);
-  join(lo_, other.lo_);
-  join(hi_, other.hi_);
-  join(compliance_, other.compliance_);
-  key_.resize(r_.size());  // keys of different problems would meet: none
+  join(rows_.values, other.rows_.values);
+  join(rows_.r, other.rows_.r);
+  join(rows_.lo, other.rows_.lo);
+  join(rows_.hi, other.rows_.hi);
+  join(rows_.compliance, other.rows_.compliance);
+  join(rows_.source, other.rows_.source);
 }
 
 void Assembly::share_mass_pattern(std::span<Assembly> steps) {
@@ -208,9 +204,9 @@ void Assembly::step(const handles::Problem& problem) const {
 }
 
 void Assembly::add_rows(const handles::Problem& problem) const {
-  const std::int32_t m = length(r_);
-  check(mlcp_problem_rows_add_csr(problem.get(), m, row_pointers_.data(), columns_.data(), jacobian_.data(), r_.data(), lo_.data(),
-                                  hi_.data(), sigma_.empty() ? compliance_.data() : nullptr, key_.data(), nullptr), problem);
+  const std::int32_t m = length(rows_.r);
+  check(mlcp_problem_rows_add_csr(problem.get(), m, rows_.pointers.data(), rows_.columns.data(), rows_.values.data(), rows_.r.data(), rows_.lo.data(),
+                                  rows_.hi.data(), sigma_.empty() ? rows_.compliance.data() : nullptr, rows_.key.data(), nullptr), problem);
   if (!sigma_.empty()) set_sigma(problem);
 }
 
@@ -223,19 +219,19 @@ void Assembly::set_masses(const handles::Problem& problem) const {
 void Assembly::refresh(const handles::Problem& problem) const {
   set_masses(problem);
   check(mlcp_problem_set_momentum(problem.get(), 0, length(k_), k_.data()), problem);
-  for (std::size_t i = 0; i < r_.size(); ++i) {
-    const std::int32_t first = row_pointers_[i], count = row_pointers_[i + 1] - first;
-    check(mlcp_problem_row_set_jacobian(problem.get(), static_cast<std::int32_t>(i), jacobian_.data() + first, count), problem);
+  for (std::size_t i = 0; i < rows_.r.size(); ++i) {
+    const std::int32_t first = rows_.pointers[i], count = rows_.pointers[i + 1] - first;
+    check(mlcp_problem_row_set_jacobian(problem.get(), static_cast<std::int32_t>(i), rows_.values.data() + first, count), problem);
   }
-  check(mlcp_problem_rows_set_r(problem.get(), 0, length(r_), r_.data()), problem);
+  check(mlcp_problem_rows_set_r(problem.get(), 0, length(rows_.r), rows_.r.data()), problem);
   if (sigma_.empty())
-    check(mlcp_problem_rows_set_compliance(problem.get(), 0, length(compliance_), compliance_.data()), problem);
+    check(mlcp_problem_rows_set_compliance(problem.get(), 0, length(rows_.compliance), rows_.compliance.data()), problem);
   else
     set_sigma(problem);
 }
 
 void Assembly::set_sigma(const handles::Problem& problem) const {
-  check(mlcp_problem_set_compliance_matrix(problem.get(), length(r_), sigma_pointers_.data(), sigma_indices_.data(), sigma_.data(),
+  check(mlcp_problem_set_compliance_matrix(problem.get(), length(rows_.r), sigma_pointers_.data(), sigma_indices_.data(), sigma_.data(),
                                            MLCP_FULL),
         problem);
 }

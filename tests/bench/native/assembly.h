@@ -3,19 +3,20 @@
 #include <span>
 #include <vector>
 
+#include "plain_rows.h"
 #include "scenes/handles.h"
 
 namespace bench {
 
-/// The numbers of a problem in arrays, as an engine holds them: what the bulk calls of mlcp.h take. No prescribed bodies; without friction, that is
-/// without the tangent rows of contacts.
+/// The numbers of a problem in arrays, as an engine holds them: what the bulk calls of mlcp.h take. Prescribed bodies are folded into the rows.
 class Assembly {
  public:
   Assembly() = default;
-  explicit Assembly(const mlcp_problem* problem);
+  /// facets: see PlainRows.
+  explicit Assembly(const mlcp_problem* problem, std::int32_t facets = 0);
 
-  /// Puts another problem beside this one, without a row between the two.
-  void append(const Assembly& other);
+  /// Puts another problem beside this one, without a row between the two. which: tells its keys from those of the others.
+  void append(const Assembly& other, std::uint64_t which);
 
   /// Gives all of them the pattern of M that they have together: files leave out what happens to be 0 in a step. fails: std::runtime_error,
   /// the bodies have other dimensions.
@@ -28,6 +29,9 @@ class Assembly {
   void step(const handles::Problem& problem) const;
 
  private:
+  /// returns the problem's velocities among those of the bodies that it takes in.
+  std::vector<Velocity> take_bodies(const mlcp_problem* problem);
+  void take_compliance(const mlcp_problem* problem);
   void spread_mass(const Assembly& pattern);
   void add_rows(const handles::Problem& problem) const;
   void set_masses(const handles::Problem& problem) const;
@@ -47,9 +51,7 @@ class Assembly {
   std::vector<Body> bodies_;
   std::vector<double> mass_;
   std::vector<double> k_;
-  std::vector<std::int32_t> row_pointers_ = {0}, columns_;
-  std::vector<double> jacobian_, r_, lo_, hi_, compliance_;
-  std::vector<std::uint64_t> key_;
+  PlainRows rows_;
   std::vector<std::int32_t> sigma_pointers_, sigma_indices_;  // empty: Σ is diagonal
   std::vector<double> sigma_;
 };

@@ -4,14 +4,15 @@
 #include <vector>
 
 #include "allocations.h"
+#include "assembly.h"
 #include "candidate_rows.h"
 #include "cli/problem_file.h"
 #include "clock.h"
 #include "dual.h"
 #include "library_run.h"
 #include "oracle.h"
+#include "recorded.h"
 #include "scene_problem.h"
-#include "scenes/scenes.h"
 #include "sequence.h"
 
 struct bench_run {
@@ -68,10 +69,23 @@ mlcp_problem* bench_read(const char* path) {
   return guard<mlcp_problem*>(nullptr, [&] { return cli::read_problem(path).problem.release(); });
 }
 
-int bench_record_pile(std::int32_t spheres, std::int32_t steps, const char* folder) {
+int bench_record(const char* scene, std::int32_t size, std::uint32_t seed, double h, std::int32_t first, std::int32_t steps,
+                 mlcp_problem** problems) {
   return guard(-1, [&] {
-    scenes::Pile pile(spheres);
-    return scenes::record(pile, steps, folder, scenes::default_step) == steps ? 0 : -1;
+    for (handles::Problem& problem : bench::record({scene, size, seed, h, first, steps})) *problems++ = problem.release();
+    return 0;
+  });
+}
+
+mlcp_problem* bench_plain(const mlcp_problem* problem, std::int32_t facets) {
+  return guard<mlcp_problem*>(nullptr, [&] { return bench::plain(problem, facets).release(); });
+}
+
+mlcp_problem* bench_join(const mlcp_problem* const* problems, std::int32_t count) {
+  return guard<mlcp_problem*>(nullptr, [&] {
+    bench::Assembly all;
+    for (std::int32_t i = 0; i < count; ++i) all.append(bench::Assembly(problems[i]), static_cast<std::uint64_t>(i));
+    return all.build().release();
   });
 }
 

@@ -9,11 +9,16 @@
 
 BENCH_API const char* bench_error();
 
-/// Problems; freed by mlcp_problem_destroy.
+/// Problems; freed by mlcp_problem_destroy. What is read or recorded may have contacts: bench_plain is for what is compared.
 BENCH_API mlcp_problem* bench_scene(const char* family, std::int32_t size);
 BENCH_API mlcp_problem* bench_read(const char* path);
-/// Records `steps` steps of a settled pile as snapshots 000.mlcp ... in a folder.
-BENCH_API int bench_record_pile(std::int32_t spheres, std::int32_t steps, const char* folder);
+/// The problems of steps of a scene, see recorded.h; `steps` of them.
+BENCH_API int bench_record(const char* scene, std::int32_t size, std::uint32_t seed, double h, std::int32_t first, std::int32_t steps,
+                           mlcp_problem** problems);
+/// Plain rows in place of contacts, see PlainRows.
+BENCH_API mlcp_problem* bench_plain(const mlcp_problem* problem, std::int32_t facets);
+/// Problems side by side.
+BENCH_API mlcp_problem* bench_join(const mlcp_problem* const* problems, std::int32_t count);
 
 /// The library on one problem. how: 0 cold, 1 known pattern. threads: of the library; ignored by a library without that setting.
 struct bench_run;

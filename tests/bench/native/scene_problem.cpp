@@ -10,7 +10,7 @@ namespace {
 
 handles::Problem islands(std::int32_t count) {
   Assembly all;
-  for (std::int32_t i = 0; i < count; ++i) all.append(Assembly(scenes::pile(30, static_cast<unsigned>(i + 1)).get()));
+  for (std::int32_t i = 0; i < count; ++i) all.append(Assembly(scenes::pile(30, static_cast<unsigned>(i + 1)).get()), static_cast<std::uint64_t>(i));
   return all.build();
 }
 
