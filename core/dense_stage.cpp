@@ -15,11 +15,10 @@ constexpr std::int32_t small = 96;
 /// Up to here it is for islands with so many entries that a sparse factor would fill in anyway,
 constexpr std::int32_t medium = 200;
 constexpr double hardly_sparse = 0.1;
-/// and for so many rows on up to so many velocities, with hardly more rows than velocities: others depend on each other, and pivots on them are many.
+/// and for so many rows on up to so many velocities.
 constexpr std::int32_t many_velocities = 400;
 /// For so many rows on none, whose A is there already, if few of them are active.
 constexpr std::int32_t many_rows = 400;
-constexpr bool seldom_dependent(std::int32_t rows, std::int32_t velocities) { return 10 * rows <= 11 * velocities; }
 /// Crowded ones of up to so many velocities are for interior points, whose steps cost as much as the velocities, not the rows.
 constexpr std::int32_t crowded_velocities = medium;
 /// Bodies that no row touches are solved one by one.
@@ -80,7 +79,7 @@ bool DenseStage::takes(const SolveInput& input) {
   for (std::int32_t c = 0; c < components.count(); ++c) alone_[c] = is_alone(c);
   for (std::int32_t c = 0; c < components.count() && fits_; ++c) {
     const std::int32_t velocities = components.velocity_count(c), rows = components.row_count(c), size = std::max(velocities, rows);
-    fits_ = size <= small || (velocities == 0 && rows <= many_rows) || (rows <= medium && velocities <= many_velocities && seldom_dependent(rows, velocities)) ||
+    fits_ = size <= small || (velocities == 0 && rows <= many_rows) || (rows <= medium && velocities <= many_velocities) ||
             (size <= medium && density(input.problem, c) >= hardly_sparse);
     if (fits_ || velocities > crowded_velocities || !too_many(rows, velocities) || couples_rows(input.problem, c)) continue;
     interior_[c] = 1;
@@ -137,7 +136,7 @@ bool DenseStage::solve(const SolveInput& input, const Mask* start, Watch& watch,
       return false;
     }
     crew.run(count, tasks_, false, cost, [&](std::int32_t c) {
-      solved_[c] = !refine(c, measure, round > 0, zero_slack(input.settings), result);
+      solved_[c] = !refine(input, c, measure, round > 0, result);
       if (solved_[c]) return;
       stop(problem, c, measure, result);
       look(c);
@@ -191,12 +190,14 @@ bool DenseStage::solve_island(const SolveInput& input, const Mask* start, Watch&
   if (alone_[c]) return solve_alone(input.problem, c, result);
   if (interior_[c]) return solve_crowded(input, start, watch, c, result);
   if (!response_.compute(input.problem, c)) return false;
-  DenseIsland& island = response_.island(c);
-  DenseNewton newton(island, zero_slack(input.settings), counts_[c]);
-  newton.start(input.problem, start);
-  if (!newton.solve(start != nullptr, !input.follows_shifts())) return false;
-  take_answer(island, result);
+  if (!newton(input, c, zero_slack(input.settings)).solve(input.problem, start)) return false;
+  take_answer(response_.island(c), result);
   return true;
+}
+
+/// Steps of a friction iteration go on from loads as they are shared.
+DenseNewton DenseStage::newton(const SolveInput& input, std::int32_t c, double zero) {
+  return {response_.island(c), zero, !input.follows_shifts(), counts_[c]};
 }
 
 void DenseStage::take_answer(const DenseIsland& island, Result& result) {
@@ -210,7 +211,8 @@ void DenseStage::take_answer(const DenseIsland& island, Result& result) {
 
 /// A correction that would push an active row's impulse beyond its bound: the row rests there, and the island is solved again without it. Cut off at the bound,
 /// the impulse would not go with the velocities any more.      returns whether there was one; where that leads nowhere the answer stays as it was.
-bool DenseStage::release(DenseIsland& s, double zero, Counts& counts, Result& result) {
+bool DenseStage::release(const SolveInput& input, std::int32_t c, Result& result) {
+  DenseIsland& s = response_.island(c);
   bool any = false;
   for (std::int32_t t = 0; t < *s.members; ++t) {
     const std::int32_t i = s.member[t];
@@ -221,23 +223,24 @@ bool DenseStage::release(DenseIsland& s, double zero, Counts& counts, Result& re
     s.gamma[i] = low ? s.lo[i] : s.hi[i];
     any = true;
   }
-  if (any && DenseNewton(s, zero, counts).solve_on()) take_answer(s, result);
+  if (any && newton(input, c, zero_slack(input.settings)).solve_on()) take_answer(s, result);
   return any;
 }
 
 /// Rows at rest that are off, though within what counted as zero for the method: it goes on from them.
 /// returns whether there was one; where that leads nowhere the answer stays as it was.
-bool DenseStage::take_in(DenseIsland& s, const Measure& measure, double zero, Counts& counts, Result& result) {
+bool DenseStage::take_in(const SolveInput& input, std::int32_t c, const Measure& measure, Result& result) {
+  DenseIsland& s = response_.island(c);
   bool any = false;
   for (std::int32_t i = 0; i < s.m && !any; ++i)
     any = s.state[i] != ActiveSet::active && s.lo[i] < s.hi[i] && s.response(i, i) > 0 && measure.error[s.row[i]] > refined;
-  if (any && DenseNewton(s, below * zero, counts).solve_on()) take_answer(s, result);
+  if (any && newton(input, c, below * zero_slack(input.settings)).solve_on()) take_answer(s, result);
   return any;
 }
 
 /// One step against the residuals that the measurement has found. Once momentum is rounding its residual is left out, as in Refinement: then the
 /// correction is as small as the rows' own residuals.  false: there is nothing to do.
-bool DenseStage::refine(std::int32_t c, const Measure& measure, bool again, double zero, Result& result) {
+bool DenseStage::refine(const SolveInput& input, std::int32_t c, const Measure& measure, bool again, Result& result) {
   if (alone_[c]) return false;
   double momentum = 0, rows = 0;
   for (const std::int32_t j : components.velocities_of(c)) momentum = std::max(momentum, measure.velocity_error(j));
@@ -246,19 +249,19 @@ bool DenseStage::refine(std::int32_t c, const Measure& measure, bool again, doub
   const bool rows_alone = momentum <= (again ? refined : settled);
   if (interior_[c])
     correct_crowded(c, measure, rows_alone, result);
-  else if (again && take_in(response_.island(c), measure, zero, counts_[c], result))
+  else if (again && take_in(input, c, measure, result))
     released_[c] = 1;
   else
-    correct(c, measure, rows_alone, zero, result);
+    correct(input, c, measure, rows_alone, result);
   return true;
 }
 
-void DenseStage::correct(std::int32_t c, const Measure& measure, bool rows_alone, double zero, Result& result) {
+void DenseStage::correct(const SolveInput& input, std::int32_t c, const Measure& measure, bool rows_alone, Result& result) {
   DenseIsland& s = response_.island(c);
   for (std::int32_t p = 0; p < s.n; ++p) s.x[p] = rows_alone ? 0 : -measure.momentum_residual(s.velocity(p));
   for (std::int32_t t = 0; t < *s.members; ++t) s.x_rows()[t] = -measure.w[s.row[s.member[t]]];
   DenseResponse::correct(s);
-  released_[c] = release(s, zero, counts_[c], result);
+  released_[c] = release(input, c, result);
   if (released_[c]) return;
   for (std::int32_t p = 0; p < s.n; ++p) result.v[s.velocity(p)] += s.x[p];
   for (std::int32_t t = 0; t < *s.members; ++t) {

@@ -27,12 +27,13 @@ class DenseStage {
  private:
   bool solve_island(const SolveInput& input, const Mask* start, Watch& watch, std::int32_t c, Result& result);
   bool solve_crowded(const SolveInput& input, const Mask* start, Watch& watch, std::int32_t c, Result& result);
+  DenseNewton newton(const SolveInput& input, std::int32_t c, double zero);
   bool solve_alone(const Problem& problem, std::int32_t c, Result& result);
   bool is_alone(std::int32_t c) const;
-  bool refine(std::int32_t c, const Measure& measure, bool again, double zero, Result& result);
-  void correct(std::int32_t c, const Measure& measure, bool rows_alone, double zero, Result& result);
-  static bool take_in(DenseIsland& island, const Measure& measure, double zero, Counts& counts, Result& result);
-  static bool release(DenseIsland& island, double zero, Counts& counts, Result& result);
+  bool refine(const SolveInput& input, std::int32_t c, const Measure& measure, bool again, Result& result);
+  void correct(const SolveInput& input, std::int32_t c, const Measure& measure, bool rows_alone, Result& result);
+  bool take_in(const SolveInput& input, std::int32_t c, const Measure& measure, Result& result);
+  bool release(const SolveInput& input, std::int32_t c, Result& result);
   static void take_answer(const DenseIsland& island, Result& result);
   void correct_crowded(std::int32_t c, const Measure& measure, bool rows_alone, Result& result);
   bool right_enough(std::int32_t c, double forgiven) const;

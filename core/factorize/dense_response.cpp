@@ -12,7 +12,7 @@ namespace {
 constexpr std::int64_t line = 8;
 
 std::int64_t real_count(std::int64_t m, std::int64_t blocks, std::int64_t panels) {
-  const std::int64_t by_lines = BlockLdl::reals(blocks) + 16 * blocks * panels + 32 * panels * panels + BlockLdl::reals(panels) + 16 * blocks;
+  const std::int64_t by_lines = BlockLdl::reals(blocks) + 16 * blocks * panels + 16 * panels * panels + BlockLdl::reals(panels) + 16 * blocks;
   return by_lines + (12 * blocks + 16 * panels + 4 * m + 4 * (blocks + panels) + line - 1) / line * line;
 }
 std::int64_t integer_count(std::int64_t m, std::int64_t panels) { return 4 * panels + 2 * m; }
@@ -41,7 +41,7 @@ void DenseResponse::prepare(const Problem& problem, const Components& components
   }
   reals_.resize(reals + line - 1);
   integers_.resize(integers);
-  states_.resize(components.rows.size());
+  states_.resize(3 * components.rows.size());
   members_.resize(count);
   first_.resize(velocity_blocks);
   islands_.resize(count);
@@ -86,7 +86,7 @@ DenseIsland DenseResponse::lay_out(std::int32_t c) {
   s.y = take(real, 16 * blocks * panels);
   s.scaled = take(real, 16 * blocks);
   s.active.lower = take(real, BlockLdl::reals(panels));
-  for (double** part : {&s.a, &s.tableau}) *part = take(real, 16 * panels * panels);
+  s.a = take(real, 16 * panels * panels);
   for (double** part : {&s.mass.inverse, &s.reach, &s.k}) *part = take(real, 4 * blocks);
   s.active.inverse = take(real, 4 * panels);
   for (double** part : {&s.gamma, &s.w, &s.scale}) *part = take(real, 4 * panels);
@@ -95,7 +95,9 @@ DenseIsland DenseResponse::lay_out(std::int32_t c) {
   s.mass.first = first_.data() + place.blocks;
   for (std::int32_t** part : {&s.begin, &s.end, &s.active.first, &s.fours}) *part = take(integer, panels);
   for (std::int32_t** part : {&s.member, &s.pushing}) *part = take(integer, m);
-  s.state = states_.data() + place.rows;
+  s.state = states_.data() + 3 * std::int64_t{place.rows};
+  s.kept = s.state + m;
+  s.tried = s.kept + m;
   return s;
 }
 
@@ -212,7 +214,7 @@ void DenseResponse::load_active(DenseIsland& s, std::int32_t b) {
   const std::int32_t* const four = s.member + 4 * b;
   double* entry = s.active.block(b);
   std::int32_t begin = columns;
-  if (count == 4 && four[3] == four[0] + 3) {
+  if (count == 4 && four[1] == four[0] + 1 && four[2] == four[0] + 2 && four[3] == four[0] + 3) {
     for (std::int32_t q = 0; q < columns; ++q, entry += 4) std::memcpy(entry, s.row_of_a(s.member[q]) + four[0], 4 * sizeof(double));
   } else {
     for (std::int32_t q = 0; q < columns; ++q, entry += 4) {
@@ -227,8 +229,8 @@ void DenseResponse::load_active(DenseIsland& s, std::int32_t b) {
   s.active.first[b] = begin / 4;
 }
 
-void DenseResponse::factor_active(DenseIsland& s, double drop) {
-  for (std::int32_t b = 0; 4 * b < *s.members;) {
+void DenseResponse::factor_active(DenseIsland& s, double drop, std::int32_t first) {
+  for (std::int32_t b = first / 4; 4 * b < *s.members;) {
     load_active(s, b);
     double least[4] = {};
     for (std::int32_t r = 0; r < std::min(4, *s.members - 4 * b); ++r) least[r] = drop * s.response(s.member[4 * b + r], s.member[4 * b + r]);
@@ -288,6 +290,17 @@ double DenseResponse::schur(const DenseIsland& s, std::int32_t i) {
   for (std::int32_t t = 0; t < *s.members; ++t) x[t] = s.response(i, s.member[t]);
   s.kernels->block_forward(s.active, blocks, x);
   for (std::int32_t t = 0; t < *s.members; ++t) pivot -= x[t] * (x[t] * s.active.inverse[t]);
+  return pivot;
+}
+
+double DenseResponse::couple(const DenseIsland& s, std::int32_t i) {
+  double* const z = s.x_rows();
+  const double* const a = s.row_of_a(i);
+  std::fill(z + *s.members, z + 4 * BlockLdl::blocks_of(*s.members), 0.0);
+  for (std::int32_t t = 0; t < *s.members; ++t) z[t] = a[s.member[t]];
+  solve_members(s, z);
+  double pivot = a[i];
+  for (std::int32_t t = 0; t < *s.members; ++t) pivot -= a[s.member[t]] * z[t];
   return pivot;
 }
 

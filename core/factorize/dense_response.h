@@ -29,8 +29,7 @@ struct DenseIsland {
   std::int32_t* members;                ///< how many
   std::int32_t *pushing, *fours;       ///< m, panels: scratch, rows with an impulse, fours of rows to look at
   double* gamma;                       ///< 4 panels, what fills the last one is 0
-  std::uint8_t* state;                 ///< m: where each row stands, for the method
-  double* tableau;                     ///< 4 panels rows of 4 panels: DenseTableau
+  std::uint8_t *state, *kept, *tried;  ///< m: where each row stands, and sets to go back to, for the method
   double *w, *scale;                   ///< 4 panels: slacks, and their terms by magnitude, for the method
   double* x;                           ///< 4 blocks + 4 panels: scratch
   double* scaled;                      ///< 16 blocks: D⁻¹ times a panel
@@ -60,8 +59,9 @@ class DenseResponse {
   /// cost: Σ over the envelope of M of the lengths it meets; m² n / 2 where the rows' velocities overlap; all by panels of four.
   bool compute(const Problem& problem, std::int32_t c);
 
-  /// Factors A on the active rows in their order; those with a pivot of at most drop · Aᵢᵢ depend on the others and are left out of `member`.
-  static void factor_active(DenseIsland& island, double drop);
+  /// Factors A on the rows `member` in their order; those with a pivot of at most drop · Aᵢᵢ depend on the others and are left out of `member`.
+  /// first: members before this one are where they were at the last call.
+  static void factor_active(DenseIsland& island, double drop, std::int32_t first = 0);
   /// γ of the members, 0 before: w = 0 there with the impulses of the rows that rest.
   static void solve_active(DenseIsland& island);
   /// w of the impulses, and scale, the magnitude of its terms, on every four rows of which one is in another state than `known`.
@@ -70,6 +70,8 @@ class DenseResponse {
   static void velocities(const DenseIsland& island);
   /// Aᵢᵢ less what the members take from it, for a row that is none.
   static double schur(const DenseIsland& island, std::int32_t i);
+  /// The same, with z = A_SS⁻¹ A_Si on the members S in x_rows(): as the impulse of i grows by 1, theirs fall by z.
+  static double couple(const DenseIsland& island, std::int32_t i);
   /// (δv, δγ) of momentum residuals k + Jᵀγ − M v in x[0, n) and of −w on the members in x_rows(), both replaced by the correction.
   static void correct(const DenseIsland& island);
 

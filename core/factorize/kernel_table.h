@@ -8,7 +8,7 @@ namespace {
 
 constexpr Kernels kernel_table{forward,       combine,        products,  backward,    rank_one,      panel_forward, block_eliminate,
                                block_forward, block_backward, panel_add, panel_scale, panel_product, tiles_square,  tiles_times,
-                               tiles_transposed, impulse_sweep, column_products, sweep, diagonal_solve, diagonal_within};
+                               tiles_transposed, impulse_sweep, column_products, diagonal_solve, diagonal_within};
 
 }  // namespace
 }  // namespace mlcp

@@ -82,9 +82,6 @@ struct Kernels {
   bool (*impulse_sweep)(const DenseSweep&);
   /// sum := Σ_j a(:,j) x_j, size := Σ_j |a(:,j) x_j| on fours of entries, over columns j of `stride` entries in the order of their list.
   void (*column_products)(const List& fours, const List& columns, std::int64_t stride, const double* a, const double* x, double* sum, double* size);
-  /// A principal pivot on p of the symmetric tableau T, as Tableau::sweep: the lower triangle, in rows of `stride` entries, a multiple of four. sign: 1
-  /// takes p in, −1 out. column: room for `stride` entries.     cost: size² / 2
-  void (*sweep)(std::int64_t size, std::int64_t stride, double* t, std::int64_t p, double sign, double* column);
 
   /// x := D⁻¹ k of a diagonal D.  returns whether all of it is positive; x is 0 where it is not.
   bool (*diagonal_solve)(std::int64_t count, const double* d, const double* k, double* x);

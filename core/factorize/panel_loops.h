@@ -322,21 +322,5 @@ void column_products(const List& fours, const List& columns, std::int64_t stride
   }
 }
 
-void sweep(std::int64_t size, std::int64_t stride, double* t, std::int64_t p, double sign, double* column) {
-  for (std::int64_t i = 0; i < p; ++i) column[i] = t[p * stride + i];
-  for (std::int64_t i = p; i < size; ++i) column[i] = t[i * stride + p];
-  for (std::int64_t i = size; i < stride; ++i) column[i] = 0;
-  const double inverse = 1 / column[p];
-  column[p] = 0;
-  for (std::int64_t i = 0; i < size; ++i) {
-    if (column[i] == 0) continue;
-    double* const row = t + i * stride;
-    const double factor = column[i] * inverse;
-    for (std::int64_t j = 0; j <= i; j += 4) *reinterpret_cast<Lanes*>(row + j) -= factor * *reinterpret_cast<const Lanes*>(column + j);
-    (p < i ? row[p] : t[p * stride + i]) = sign * factor;
-  }
-  t[p * stride + p] = -inverse;
-}
-
 }  // namespace
 }  // namespace mlcp

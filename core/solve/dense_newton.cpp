@@ -20,6 +20,8 @@ constexpr double found_pivot = 1e-14;
 constexpr int most_sweeps = 8;
 /// From the impulses of a step before.
 constexpr int most_sweeps_on = 2;
+/// A factorization of k active rows is k³ / 6, a sweep of m rows m²: so many times the second, times six.
+constexpr double much_dearer = 50;
 /// More active rows are factored sooner the sparse way, whose cost is not that of a cube; where there are velocities, A has cost too much by then.
 constexpr std::int32_t most_active = 160;
 
@@ -33,10 +35,10 @@ void DenseNewton::rest(std::int32_t i, ActiveSet::State to) {
 }
 
 void DenseNewton::start(const Problem& problem, const Mask* mask) {
-  impulses_ = mask && !mask->impulse.empty();
+  const bool impulses = mask && !mask->impulse.empty();
   for (std::int32_t i = 0; i < s_.m; ++i) {
     rest(i, ActiveSet::starting(problem, s_.row[i], mask));
-    if (s_.state[i] == ActiveSet::active) s_.gamma[i] = impulses_ ? mask->impulse[s_.row[i]] : 0;
+    if (s_.state[i] == ActiveSet::active) s_.gamma[i] = impulses ? mask->impulse[s_.row[i]] : 0;
   }
 }
 
@@ -113,15 +115,25 @@ bool DenseNewton::dropped_joints() const {
   return false;
 }
 
-/// false: they do not end.
+/// To the active set that fitted best.
+void DenseNewton::go_back() {
+  for (std::int32_t i = 0; i < s_.m; ++i) {
+    s_.state[i] = s_.kept[i];
+    if (s_.state[i] != ActiveSet::active) rest(i, static_cast<ActiveSet::State>(s_.state[i]));
+  }
+}
+
+/// false: they do not end, and the set that fitted best is kept.
 bool DenseNewton::full_steps(double drop, int patience) {
   std::int32_t fewest = s_.m + 1;
   for (int left = patience; left >= 0;) {
+    std::copy(s_.state, s_.state + s_.m, s_.tried);
     const std::int32_t flips = step(drop);
     if (flips == 0) return true;
     if (flips < fewest) {
       fewest = flips;
       left = patience;
+      std::swap(s_.kept, s_.tried);
     } else {
       --left;
     }
@@ -129,13 +141,32 @@ bool DenseNewton::full_steps(double drop, int patience) {
   return false;
 }
 
-bool DenseNewton::solve_on() { return full_steps(dependent_pivot, short_patience); }
-
-bool DenseNewton::solve(bool warm, bool pivots) {
-  if (!warm || impulses_) guess(warm ? most_sweeps_on : most_sweeps);
-  if (too_many()) return false;
-  if (full_steps(dependent_pivot, pivots ? short_patience : patience)) return true;
-  return pivots && !dropped_joints() && DenseSimplex(s_, zero_, counts_).solve() && full_steps(found_pivot, short_patience);
+bool DenseNewton::pivot() {
+  go_back();
+  return DenseSimplex(s_, zero_, counts_).solve() && full_steps(found_pivot, short_patience);
 }
+
+bool DenseNewton::may_pivot() const { return pivots_ && !dropped_joints(); }
+
+/// The active set of a start as it is, where a factorization costs no more than sweeps do; pivots from there if it does not fit.
+bool DenseNewton::solve_at_once() {
+  const double m = s_.m, active = static_cast<double>(std::count(s_.state, s_.state + s_.m, ActiveSet::active));
+  if (active * active * active > much_dearer * m * m) return false;
+  const bool fits = full_steps(dependent_pivot, 0);
+  return may_pivot() && (fits || pivot());
+}
+
+bool DenseNewton::solve(const Problem& problem, const Mask* mask) {
+  start(problem, mask);
+  if (mask && pivots_) {
+    if (solve_at_once()) return true;
+    start(problem, mask);
+  }
+  if (!mask || !mask->impulse.empty()) guess(mask ? most_sweeps_on : most_sweeps);
+  if (too_many()) return false;
+  return full_steps(dependent_pivot, pivots_ ? short_patience : patience) || (may_pivot() && pivot());
+}
+
+bool DenseNewton::solve_on() { return full_steps(dependent_pivot, short_patience) || (may_pivot() && pivot()); }
 
 }  // namespace mlcp

@@ -136,7 +136,8 @@ TEST(SmallIslands, ThatAreCrowdedAndLargeAreForTheSparseWay) {
   };
   EXPECT_TRUE(without_factor(crowded_chain(random, 66, 330)));   // 198 velocities
   EXPECT_FALSE(without_factor(crowded_chain(random, 68, 330)));  // 204
-  EXPECT_FALSE(without_factor(crowded_chain(random, 40, 139)));  // 120 velocities, 179 rows: more than there should be for active sets, but no crowd
+  EXPECT_TRUE(without_factor(crowded_chain(random, 40, 139)));   // 120 velocities, 179 rows: for active sets
+  EXPECT_FALSE(without_factor(crowded_chain(random, 62, 150)));  // 186 velocities, 212 rows: too many for these, but no crowd
   mlcp::Problem coupled = crowded_chain(random, 40, 220);
   Eigen::MatrixXd sigma = Eigen::MatrixXd::Identity(coupled.m(), coupled.m());
   sigma(3, 7) = sigma(7, 3) = 0.5;

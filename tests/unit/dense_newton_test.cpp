@@ -27,9 +27,7 @@ void run(const mlcp::Problem& p, const mlcp::Mask* start, bool pivots, Tally& ta
     if (!response.compute(p, c)) continue;
     mlcp::DenseIsland s = response.island(c);
     mlcp::Counts counts;
-    mlcp::DenseNewton newton(s, zero, counts);
-    newton.start(p, start);
-    if (!newton.solve(start != nullptr, pivots)) continue;
+    if (!mlcp::DenseNewton(s, zero, pivots, counts).solve(p, start)) continue;
     ++tally.done;
     for (int i = 0; i < s.m; ++i) {
       Real w = reduced.b[s.row[i]], size = reduced.size[s.row[i]] + std::abs(w);
