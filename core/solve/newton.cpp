@@ -52,7 +52,7 @@ void Newton::go_back(const Island& island) {
 Newton::Ending Newton::full_steps(const Island& island, double drop) {
   std::size_t fewest = SIZE_MAX;
   int share = 0;  // 2^−share of the changes are made
-  const bool guessed = drop == 0 && !warm_;
+  const bool guessed = drop == 0 && (!warm_ || island.crowded);
   int most = guessed ? patience_with_guesses : patience;
   for (int left = most;;) {
     stopped_ = limits_.check(counts_, 0);
