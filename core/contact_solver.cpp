@@ -177,7 +177,7 @@ void ContactSolver::solve(const Problem& problem, const Mask* enabled, const Mas
 }
 
 void ContactSolver::State::solve_without(const Problem& problem, const Mask* mask, const Mask* start, mlcp_report& report) {
-  solver.measure_contacts(0, {});
+  solver.measure_contacts(0, {}, false);
   solver.solve(problem, mask, start, report);
   last = &solver.result();
   classify(problem, mask, *last, report);
@@ -202,7 +202,8 @@ void ContactSolver::State::solve_with(const Problem& problem, const Mask* mask, 
   errors = Errors{};
   const std::int32_t most = settings.max_shifts > 0 ? settings.max_shifts : default_shifts;
   solver.set_settings(settings);
-  solver.measure_contacts(0.1 * settings.tolerance, rows.cone_of_row.span());  // generators of contacts that stick depend on each other by nature
+  const bool shifts_slip = std::ranges::any_of(generators.contact, [&](std::int32_t c) { return problem.contacts[c].model == MLCP_FRICTION_COULOMB; });
+  solver.measure_contacts(0.1 * settings.tolerance, rows.cone_of_row.span(), shifts_slip);  // generators of contacts that stick depend on each other by nature
   while (true) {
     // the first solve always takes place, if only to be stopped: it leaves a point
     if (shifts > 0 && (stopped = spend(total, since(begin))) != MLCP_SOLVED) break;

@@ -197,7 +197,7 @@ bool DenseStage::solve_island(const SolveInput& input, const Mask* start, Watch&
 
 /// Steps of a friction iteration go on from loads as they are shared.
 DenseNewton DenseStage::newton(const SolveInput& input, std::int32_t c, double zero) {
-  return {response_.island(c), zero, !input.follows_shifts(), counts_[c]};
+  return {response_.island(c), zero, !input.follows_shifts, counts_[c]};
 }
 
 void DenseStage::take_answer(const DenseIsland& island, Result& result) {

@@ -52,6 +52,7 @@ struct Solver::State {
   Errors errors;
   std::int32_t indefinite = -1;  ///< the velocity whose pivot is not positive
   double contradiction = 0;
+  bool follows_shifts = false;
   std::span<const std::int32_t> contact_of_row;
   bool large = false;            ///< `main` has solved the last problem, and its factors stand
 
@@ -101,7 +102,8 @@ void Solver::set_settings(const Settings& settings) {
   state_->settings = settings;
 }
 
-void Solver::measure_contacts(double contradiction, std::span<const std::int32_t> contact_of_row) {
+void Solver::measure_contacts(double contradiction, std::span<const std::int32_t> contact_of_row, bool follows_shifts) {
+  state_->follows_shifts = follows_shifts;
   state_->contradiction = contradiction;
   state_->contact_of_row = contact_of_row;
 }
@@ -200,7 +202,7 @@ void Solver::State::rescue(const SolveInput& input, Watch& watch, Crew& crew, ml
   if (!any) return;
   Settings pivoting = settings;
   pivoting.method = MLCP_METHOD_SIMPLEX;
-  const SolveInput part{problem, &given_up, pivoting, input.contradiction, input.contact_of_row};
+  const SolveInput part{problem, &given_up, pivoting, input.contradiction, input.contact_of_row, input.follows_shifts};
   try {
     if (!exact->analysis.covers(problem, &given_up, true)) exact->analysis.run(problem, &given_up, true, {}, watch.poll());
   } catch (const Stopped&) {
@@ -444,11 +446,11 @@ void Solver::solve(const Problem& problem, const Mask* enabled, const Mask* star
   check_mask(enabled, problem, "enabled");
   check_mask(start, problem, "start");
   s.pool.resize(s.settings.parallel_for ? 1 : s.settings.num_threads > 0 ? s.settings.num_threads : static_cast<std::int32_t>(std::max(1u, std::thread::hardware_concurrency())));
-  s.solve({problem, enabled, s.settings, s.contradiction, s.contact_of_row}, start, false, report);
+  s.solve({problem, enabled, s.settings, s.contradiction, s.contact_of_row, s.follows_shifts}, start, false, report);
 }
 
 void Solver::solve_again(const Problem& problem, const Mask* enabled, const Mask& start, mlcp_report& report) {
-  state_->solve({problem, enabled, state_->settings, state_->contradiction, state_->contact_of_row}, &start, true, report);
+  state_->solve({problem, enabled, state_->settings, state_->contradiction, state_->contact_of_row, state_->follows_shifts}, &start, true, report);
 }
 
 /// The order is kept, so that the next solve of the same pattern gives the same bits as without.

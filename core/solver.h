@@ -29,7 +29,7 @@ class Solver {
   /// enabled are what they were. Islands whose rows are all as they were keep their answer, the others their factor.
   void solve_again(const Problem& problem, const Mask* enabled, const Mask& start, mlcp_report& report);
   /// Of the solves from now on: see SolveInput.
-  void measure_contacts(double contradiction, std::span<const std::int32_t> contact_of_row);
+  void measure_contacts(double contradiction, std::span<const std::int32_t> contact_of_row, bool follows_shifts);
   /// There are no results until the next solve.
   void forget_result();
   const Result& result() const;

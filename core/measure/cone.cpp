@@ -28,6 +28,27 @@ double sector_angle(Tangent t, std::int32_t facets) {
   return static_cast<double>((turn < 0 ? turn + 1 : turn) * facets);
 }
 
+Tangent computed_direction(std::int32_t j, std::int32_t facets) {
+  if (2 * j % facets == 0) return {j % facets == 0 ? 1.0 : -1.0, 0};
+  const long double angle = 2 * std::numbers::pi_v<long double> * j / facets;
+  const bool upright = 4 * std::int64_t(j) % facets == 0;
+  return {upright ? 0.0 : static_cast<double>(std::cos(angle)), static_cast<double>(std::sin(angle))};
+}
+
+/// Those of the pyramids that are common, since a sine takes longer than all else that is done with a facet.
+class CommonDirections {
+ public:
+  static constexpr std::int32_t most_facets = 16;
+  CommonDirections() {
+    for (std::int32_t n = 1; n <= most_facets; ++n)
+      for (std::int32_t j = 0; j < n; ++j) directions_[n - 1][j] = computed_direction(j, n);
+  }
+  Tangent operator()(std::int32_t j, std::int32_t facets) const { return directions_[facets - 1][j]; }
+
+ private:
+  Tangent directions_[most_facets][most_facets];
+};
+
 }  // namespace
 
 double length(Tangent t) {
@@ -36,10 +57,9 @@ double length(Tangent t) {
 }
 
 Tangent Cone::direction(std::int32_t j) const {
-  if (2 * j % facets == 0) return {j % facets == 0 ? 1.0 : -1.0, 0};
-  const long double angle = 2 * std::numbers::pi_v<long double> * j / facets;
-  const bool upright = 4 * std::int64_t(j) % facets == 0;
-  return {upright ? 0.0 : static_cast<double>(std::cos(angle)), static_cast<double>(std::sin(angle))};
+  if (facets > CommonDirections::most_facets || j < 0 || j >= facets) return computed_direction(j, facets);
+  static const CommonDirections common;
+  return common(j, facets);
 }
 
 std::int32_t Cone::nearest_facet(Tangent t) const {

@@ -19,7 +19,7 @@ struct SolveInput {
 
   /// The solve is one step of an iteration on friction: rows that depend on each other share their load, since one that rests in a step and
   /// carries all of it in the next keeps the iteration from settling.
-  bool follows_shifts() const { return contradiction > 0; }
+  bool follows_shifts = false;
 };
 
 }  // namespace mlcp

@@ -62,7 +62,7 @@ class Run {
       return;
     }
     if (method == MLCP_METHOD_PGS && sweep()) return;
-    const bool pivots_open = method == MLCP_METHOD_AUTO && !input_.follows_shifts() && !island_.crowded;
+    const bool pivots_open = method == MLCP_METHOD_AUTO && !input_.follows_shifts && !island_.crowded;
     const bool improves = warm && improvable();
     if (improves) guess(true);
     if (newton(warm, {.guess = warm && !improves && guessable(), .pivots = pivots_open})) return;
@@ -203,7 +203,7 @@ class Run {
   /// Steps of a friction iteration go on from loads as they are shared.
   bool improvable() {
     const GaussSeidel sweeps(basis_, limits_, end_.counts);
-    return !input_.follows_shifts() && guessable() && sweeps.cycles_pay(island_) && !sweeps.must_depend(island_) && knows_impulses();
+    return !input_.follows_shifts && guessable() && sweeps.cycles_pay(island_) && !sweeps.must_depend(island_) && knows_impulses();
   }
 
   /// A start may be a mask of states alone.
