@@ -36,7 +36,7 @@ class DenseStage {
   bool release(const SolveInput& input, std::int32_t c, Result& result);
   static void take_answer(const DenseIsland& island, Result& result);
   void correct_crowded(std::int32_t c, const Measure& measure, bool rows_alone, Result& result);
-  bool right_enough(std::int32_t c, double forgiven) const;
+  bool right_enough(std::int32_t c, const Settings& settings) const;
   void stop(const Problem& problem, std::int32_t c, const Measure& measure, Result& result);
   void mark_redundant(std::int32_t c, const Measure& measure, Result& result);
 

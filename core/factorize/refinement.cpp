@@ -1,5 +1,6 @@
 #include "factorize/refinement.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -26,7 +27,7 @@ void Refinement::prepare(std::int32_t size) {
   best_.resize(size);
 }
 
-/// after: residual_ = b − K x, scale_ = |K||x| + size on the island, of contacts their largest. Rows gather along J and Σ, velocities along the columns
+/// after: residual_ = b − K x, scale_ = |K||x| + size on the island, of contacts their largest; of rows that are out neither need be. Rows gather along J and Σ, velocities along the columns
 /// of K; only what these have on one side of the diagonal (M, rows that come before their velocities) is added to the other by scattering.
 Refinement::Error Refinement::measure(const Island& island, const KktPattern& pattern, const KktValues& values, const Factor& factor,
                                       const double* b, const double* size, const double* x, std::int64_t& work) {
@@ -48,16 +49,19 @@ Refinement::Error Refinement::measure(const Island& island, const KktPattern& pa
     for (std::int32_t t = pattern.lower_pointers[p]; t < pattern.lower_pointers[p + 1]; ++t) {
       const std::int32_t q = pattern.lower_rows[t];
       const double k = values.lower[t];
+      if (k == 0) continue;  // masses of bodies are given as full blocks
       if (!pattern.is_row(q)) scatter(q, k, own);
-      if (row) continue;
+      if (row || x[q] == 0) continue;  // most rows may be at rest
       residual -= static_cast<long double>(k) * x[q];
       scale += std::abs(k * x[q]);
     }
     residual_[p] = residual;
     scale_[p] = scale;
   }
+  const bool alone = values.together.empty();  // no row lends its scale to others
   for (std::int32_t o = island.first_row; o < island.last_row; ++o) {
     const std::int32_t p = pattern.row_position[o];
+    if (alone && !factor.in(p)) continue;
     long double residual = residual_[p];
     double scale = scale_[p];
     for (std::int32_t t = pattern.row_pointers[o]; t < pattern.row_pointers[o + 1]; ++t) {
@@ -112,9 +116,16 @@ double Refinement::solve(const Island& island, const KktPattern& pattern, const 
   const auto better = [](const Error& now, const Error& before) {
     return now.largest() < before.largest() || now.off < before.off || now.largest_off < 0.1 * before.largest_off;
   };
-  for (std::int32_t p = island.first; p < island.last && !from_x; ++p)
+  bool zero = !from_x;
+  for (std::int32_t p = island.first; p < island.last && !from_x; ++p) {
     if (factor.in(p)) x[p] = 0;
-  Error error = look();
+    zero &= x[p] == 0;
+  }
+  Error error;
+  if (zero)
+    std::transform(b + island.first, b + island.last, residual_.begin() + island.first, [](double whole) { return static_cast<long double>(whole); });
+  else
+    error = look();
   if (from_x && error.largest() <= done) return error.largest();
   // before: residual_ is that of x.  after: the same.
   const auto stop_what_is_lost = [&] {
@@ -141,7 +152,7 @@ double Refinement::solve(const Island& island, const KktPattern& pattern, const 
     const Error now = look();
     if (step > 0 && !better(now, error)) {
       of(x) = of(best_.data());
-      look();
+      if (error.off > 0) look();  // for what follows
       break;
     }
     if (!rows_alone) momentum_before = step > 0 ? error.momentum : infinity;

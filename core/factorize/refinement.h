@@ -18,7 +18,7 @@ class Refinement {
   double solve(const Island& island, const KktPattern& pattern, const KktValues& values, const Factor& factor,
                const double* b, const double* size, double* x, std::int64_t& steps, std::int64_t& work, bool from_x = false);
 
-  /// Magnitude of the terms of node p in the last measurement.
+  /// Magnitude of the terms of node p in the last measurement, of x or of a point next to it.
   double scale(std::int32_t p) const { return scale_[p]; }
   /// The backward error of x as it is.
   double error(const Island& island, const KktPattern& pattern, const KktValues& values, const Factor& factor, const double* b,
