@@ -100,7 +100,8 @@ void Components::join_masses(const Problem& problem) {
   start_sets(joined_, problem.n());
   for (const std::int32_t j : coupled_) {
     const Body& body = problem.bodies[problem.body_of[j]];
-    if (!body.sparse)
+    // a robot's root moves all of it
+    if (!body.sparse || mass.pointers[body.offset + 1] - mass.pointers[body.offset] == body.dimension)
       joined_[j] = body.offset;
     else
       for (std::int32_t t = mass.pointers[j]; t < mass.pointers[j + 1]; ++t)

@@ -30,17 +30,28 @@ void reserve_rows(Problem& problem, std::int64_t rows, std::int64_t entries) {
 }
 
 void append_fields(Problem& problem, const RowFields& fields, std::int32_t count) {
+  const std::int32_t m = problem.m();
+  const auto position = static_cast<std::int32_t>(problem.compliance.values.size());
+  auto& [pointers, indices, values] = problem.compliance;
+  for (Array<double>* a : {&problem.r, &problem.lo, &problem.hi}) a->resize(m + count);
+  problem.key.resize(m + count);
+  problem.diagonal.resize(m + count);
+  pointers.resize(m + count + 1);
+  indices.resize(position + count);
+  values.resize(position + count);
   for (std::int32_t i = 0; i < count; ++i) {
-    const auto position = static_cast<std::int32_t>(problem.compliance.values.size());
-    problem.diagonal.push_back(position);
-    problem.compliance.indices.push_back(problem.m());
-    problem.compliance.values.push_back(fields.compliance[i]);
-    problem.compliance.pointers.push_back(position + 1);
-    problem.lo.push_back(fields.lo[i]);
-    problem.hi.push_back(fields.hi[i]);
-    problem.key.push_back(fields.key[i]);
-    problem.r.push_back(fields.r[i]);
+    problem.diagonal[m + i] = position + i;
+    indices[position + i] = m + i;
+    pointers[m + i + 1] = position + i + 1;
   }
+  const auto take = [&](const auto& field, auto* to) {
+    for (std::int32_t i = 0; i < count; ++i) to[i] = field[i];
+  };
+  take(fields.compliance, values.data() + position);
+  take(fields.r, problem.r.data() + m);
+  take(fields.lo, problem.lo.data() + m);
+  take(fields.hi, problem.hi.data() + m);
+  take(fields.key, problem.key.data() + m);
 }
 
 }  // namespace mlcp

@@ -23,14 +23,16 @@ void check_columns(Problem& problem, const std::int32_t* columns, std::int32_t b
   }
 }
 
-/// before: checked and reserved.
-void append_entries(Problem& problem, const std::int32_t* columns, const double* values, std::int32_t begin, std::int32_t end) {
+/// `count` rows with the entries row_pointers[0] .. row_pointers[count] − 1.  before: checked and reserved.
+void append_entries(Problem& problem, std::int32_t count, const std::int32_t* row_pointers, const std::int32_t* columns, const double* values) {
+  if (count == 0) return;  // there need be no arrays
   auto& [pointers, indices, numbers] = problem.jacobian;
-  for (std::int32_t e = begin; e < end; ++e) {
-    indices.push_back(columns[e]);
-    numbers.push_back(values[e]);
-  }
-  pointers.push_back(static_cast<std::int32_t>(numbers.size()));
+  const std::int32_t before = pointers.back(), first = row_pointers[0], entries = row_pointers[count] - first;
+  indices.append({columns + first, static_cast<std::size_t>(entries)});
+  numbers.append({values + first, static_cast<std::size_t>(entries)});
+  const std::size_t rows = pointers.size();
+  pointers.resize(rows + count);
+  for (std::int32_t i = 0; i < count; ++i) pointers[rows + i] = before + (row_pointers[i + 1] - first);
 }
 
 /// work.index: number of entries of every row.
@@ -62,7 +64,8 @@ std::int32_t row_add(Problem& problem, std::int32_t count, const std::int32_t* c
   check_fields(fields, 0, count > 0);
   reserve_rows(problem, 1, count);
   const std::int32_t first = problem.m();
-  append_entries(problem, columns, values, 0, count);
+  const std::int32_t row_pointers[] = {0, count};
+  append_entries(problem, 1, row_pointers, columns, values);
   append_fields(problem, fields, 1);
   return first;
 }
@@ -81,7 +84,7 @@ std::int32_t rows_add_csr(Problem& problem, std::int32_t count, const std::int32
   check_finite("values", values, entries);
   reserve_rows(problem, count, entries);
   const std::int32_t first = problem.m();
-  for (std::int32_t i = 0; i < count; ++i) append_entries(problem, columns, values, row_pointers[i], row_pointers[i + 1]);
+  append_entries(problem, count, row_pointers, columns, values);
   append_fields(problem, fields, count);
   return first;
 }

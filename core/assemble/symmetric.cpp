@@ -38,16 +38,22 @@ void check_indices(const SymmetricInput& a, Marker& marker) {
   }
 }
 
+/// Differences of pairs, collected by |: a sum would wait for the one before. Those of finite, equal pairs are 0 or −0.
+std::uint64_t difference(double a, double b) { return std::bit_cast<std::uint64_t>(a - b); }
+bool equal(std::uint64_t differences) { return differences << 1 == 0; }
+
 /// What most callers hand in: both triangles, every column ascending. Then the mirrors of column j are met in the order in which the other columns
 /// have them, and pattern and slots are those of the input.  false: it is not so, or something is wrong with it.
-/// after true: as place().       cost: 1 step an entry
-bool take_sorted(const SymmetricInput& a, std::int32_t entries, EditWorkspace& work) {
+/// after true: as place(); exact: the values are those of a symmetric matrix, finite and not negative on the diagonal.       cost: 1 step an entry
+bool take_sorted(const SymmetricInput& a, std::int32_t entries, EditWorkspace& work, bool& exact) {
   if (a.triangle != MLCP_FULL || a.size == 0) return false;  // of a size of 0, column_pointers may be null
   const std::int32_t *start = a.column_pointers, *rows = a.row_indices;
   std::int32_t* slot = work.slot.data();
   work.index.resize(a.size);
   std::int32_t* const next = work.index.data();  // of each column: its first entry whose mirror was not met
   std::copy(start, start + a.size, next);
+  std::uint64_t off = 0;
+  bool positive = true;
   for (std::int32_t j = 0; j < a.size; ++j) {
     std::int32_t before = j - 1;
     for (std::int32_t e = next[j], end = start[j + 1]; e < end; ++e) {
@@ -57,6 +63,7 @@ bool take_sorted(const SymmetricInput& a, std::int32_t entries, EditWorkspace& w
       slot[2 * e] = e;
       if (i == j) {
         slot[2 * e + 1] = e;
+        positive &= (a.values[e] >= 0) & (a.values[e] < infinity);
         continue;
       }
       const std::int32_t mirror = next[i]++;
@@ -64,8 +71,10 @@ bool take_sorted(const SymmetricInput& a, std::int32_t entries, EditWorkspace& w
       slot[2 * e + 1] = mirror;
       slot[2 * mirror] = mirror;
       slot[2 * mirror + 1] = e;
+      off |= difference(a.values[e], a.values[mirror]);
     }
   }
+  exact = positive && equal(off);
   work.expanded.pointers.assign({start, std::size_t(a.size) + 1});
   work.expanded.indices.assign({rows, std::size_t(entries)});
   work.expanded.values.resize(entries);
@@ -134,10 +143,6 @@ void place(const SymmetricInput& a, EditWorkspace& work) {
     }
 }
 
-/// Differences of pairs, collected by |: a sum would wait for the one before. Those of finite, equal pairs are 0 or −0.
-std::uint64_t difference(double a, double b) { return std::bit_cast<std::uint64_t>(a - b); }
-bool equal(std::uint64_t differences) { return differences << 1 == 0; }
-
 }  // namespace
 
 bool is_diagonal(const SymmetricInput& a) {
@@ -153,7 +158,8 @@ bool is_diagonal(const SymmetricInput& a) {
 void expand(const SymmetricInput& input, EditWorkspace& work) {
   const std::int32_t entries = check_arrays(input);
   work.slot.resize(2 * std::size_t(entries));
-  if (!take_sorted(input, entries, work)) {
+  bool exact = false;
+  if (!take_sorted(input, entries, work, exact)) {
     check_indices(input, work.marker);
     if (input.triangle == MLCP_FULL) {
       find_mirrors(input, entries, work.marker, work.index, work.slot.data());
@@ -166,7 +172,7 @@ void expand(const SymmetricInput& input, EditWorkspace& work) {
   }
   const SymmetricPattern pattern{input.size, work.expanded.pointers.data(), work.expanded.indices.data(), 0, work.slot.data(), entries, input.triangle};
   work.value.clear();
-  if (static_cast<std::int64_t>(work.expanded.values.size()) == entries && mirrored(pattern, input.values)) {
+  if (exact || (static_cast<std::int64_t>(work.expanded.values.size()) == entries && mirrored(pattern, input.values))) {
     std::copy_n(input.values, entries, work.expanded.values.begin());
     return;
   }

@@ -108,8 +108,8 @@ DenseResponse::Slot* DenseResponse::find_mass_envelope(const Problem& problem, c
     for (std::int32_t p = first; p < std::min(4 * b + 4, s.n); ++p) {
       const std::int32_t j = s.velocity(p), row = static_cast<std::int32_t>(BlockLdl::reals(b)) + p - 4 * b;
       for (std::int32_t t = mass.pointers[j], end = mass.pointers[j + 1]; t < end; ++t) {
+        if (mass.indices[t] < j) continue;  // of the other triangle: velocities count down
         const std::int32_t q = local_[mass.indices[t]];
-        if (q > p) continue;
         first = std::min(first, q);
         *slot++ = {t, row + 4 * q};
       }

@@ -67,6 +67,11 @@ class Array {
     resize(values.size());
     if (!values.empty()) std::memcpy(data_, values.data(), values.size() * sizeof(T));
   }
+  void append(std::span<const T> values) {
+    const std::size_t before = size_;
+    resize(before + values.size());
+    if (!values.empty()) std::memcpy(data_ + before, values.data(), values.size() * sizeof(T));
+  }
   void push_back(T value) {
     reserve(size_ + 1);
     data_[size_++] = value;
