@@ -148,8 +148,10 @@ bool DenseNewton::pivot() {
 
 bool DenseNewton::may_pivot() const { return pivots_ && !dropped_joints(); }
 
-/// The active set of a start as it is, where a factorization costs no more than sweeps do; pivots from there if it does not fit.
+/// The active set of a start as it is, where rows are likely to depend on each other and a factorization costs no more than sweeps do; pivots from there if
+/// it does not fit.
 bool DenseNewton::solve_at_once() {
+  if (2 * s_.m <= s_.n) return false;
   const double m = s_.m, active = static_cast<double>(std::count(s_.state, s_.state + s_.m, ActiveSet::active));
   if (active * active * active > much_dearer * m * m) return false;
   const bool fits = full_steps(dependent_pivot, 0);
