@@ -183,6 +183,58 @@ TEST(SmallIslands, ARowThatIsOffByAlmostNothingIsTakenIn) {
   for (const int seed : {1393, 1787, 6410}) expect_small(seed);
 }
 
+/// Boxes stand on four corners each, so that a few 1e-13 of some rows' slack stays whichever of them carry the load. Steps with the last active set too.
+TEST(SmallIslands, TowersStaySmallThoughTheirRowsAreNotQuiteExact) {
+  const auto tower = scenes::make_scene("tower", 10);
+  for (int step = 0; step < 60; ++step) {
+    tower->prepare(scenes::default_step);
+    const mlcp_report& report = tower->finish();
+    ASSERT_EQ(report.outcome, MLCP_SOLVED) << "step " << step;
+    ASSERT_LE(report.largest_error, 4e-13) << "step " << step;
+    mlcp_factor_view factor;
+    mlcp_factor_view_init(&factor, sizeof factor);
+    EXPECT_EQ(mlcp_solver_factor(tower->solver(), &factor), MLCP_ERROR_STATE) << "step " << step;
+  }
+}
+
+/// Where a tenth of a rounding is asked for, they are not left.
+TEST(SmallIslands, TowersAreAsExactAsTheyAreAskedFor) {
+  const auto tower = scenes::make_scene("tower", 10);
+  mlcp_settings settings;
+  mlcp_settings_init(&settings, sizeof settings);
+  settings.tolerance = 1e-11;
+  tower->use(settings);
+  for (int step = 0; step < 60; ++step) {
+    tower->prepare(scenes::default_step);
+    ASSERT_LE(tower->finish().largest_error, 1.2e-13) << "step " << step;
+  }
+}
+
+/// Rows that depend on each other, three times as many as velocities: the last active set is changed where it has to be, not found once more.
+TEST(SmallIslands, AStartOfCrowdedRowsIsGoneOnFrom) {
+  std::int64_t cold = 0, warm = 0;
+  int feasible = 0;
+  for (int seed = 0; seed < 40; ++seed) {
+    Random random(seed);
+    mlcp::Problem p = crowded_chain(random, 20, 150);  // 60 velocities, 170 rows
+    mlcp::Solver solver(automatic(), mlcp::Memory());
+    const Solution first = solve(solver, p);
+    if (first.report.outcome != MLCP_SOLVED) continue;
+    ++feasible;
+    cold += first.report.pivots;
+    for (std::int32_t i = 0; i < p.m(); ++i) p.r[i] += 1e-4 * random.uniform();
+    mlcp::Mask start{mlcp::Memory()};
+    start.state.assign(first.state);
+    start.impulse.assign(first.gamma);
+    const Solution again = solve(solver, p, nullptr, &start);
+    EXPECT_EQ(fault(dense(p), again), "") << "seed " << seed;
+    EXPECT_LE(again.report.factorizations, 4) << "seed " << seed;
+    warm += again.report.pivots;
+  }
+  EXPECT_GT(feasible, 30);
+  EXPECT_LE(3 * warm, cold);
+}
+
 TEST(SmallIslands, ASecondSolveOfThePatternFindsNothingAnew) {
   Random random(5);
   mlcp::Problem p = random_chain(random, 6, 3, 1);
