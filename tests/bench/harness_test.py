@@ -14,9 +14,10 @@ import numpy as np
 import scipy.sparse as sp
 
 sys.path.insert(0, str(Path(__file__).parent))
-from compare import candidates, families, figures, library, rounds, tables  # noqa: E402
+from compare import candidates, families, figures, library, rounds, sequences, tables  # noqa: E402
 from compare.errors import Measure  # noqa: E402
 from compare.peers import Outcome, all_peers, native  # noqa: E402
+from compare.problem import Problem  # noqa: E402
 
 build = Path(sys.argv.pop())
 native.folder = build / "lib"
@@ -74,6 +75,52 @@ class Forms(unittest.TestCase):
         self.assertEqual((LIBRARY.matrix(copy, "jacobian") != problem.J).nnz, 0)
         self.assertEqual((LIBRARY.matrix(copy, "mass") != problem.M).nnz, 0)
         LIBRARY.destroy(copy)
+
+
+class Machines(unittest.TestCase):
+    """Steps of scenes with contacts and prescribed bodies, as every solver takes them."""
+
+    def steps(self, scene, size, first, facets, count=1, h=0.01):
+        return [Problem(scene, "machine", LIBRARY, handle) for handle in families.Recording(scene, size, first, h=h).steps(LIBRARY, facets, count=count)]
+
+    def test_a_facet_is_the_normal_and_mu_times_its_direction(self):
+        normals, = self.steps("wall_of_boxes", 2, 3, 0)
+        pyramids, = self.steps("wall_of_boxes", 2, 3, 4)
+        self.assertEqual(pyramids.m, 4 * normals.m)
+        J, opposite = pyramids.J.toarray().reshape(normals.m, 4, -1), normals.J.toarray()
+        for facet in (0, 1):
+            np.testing.assert_allclose((J[:, facet] + J[:, facet + 2]) / 2, opposite, atol=1e-15)
+        across = np.linalg.norm(J[:, 0] - J[:, 2], axis=1)
+        self.assertGreater(across.min(), 0)
+        self.assertTrue(np.all(pyramids.lo == 0) and np.all(np.isinf(pyramids.hi)))
+
+    def test_prescribed_bodies_go_into_the_rows(self):
+        problem, = self.steps("bottles", 6, 10, 0)  # a shaft turns the wheel
+        self.assertEqual(problem.n, 3 * 7)
+        row, = rounds.compare(problem, list(candidates.ours(LIBRARY))[:1], BUDGET)
+        self.assertTrue(row.reached, row)
+
+    def test_compliant_pyramids_keep_the_compliance_of_their_contacts(self):
+        problem, = self.steps("gripper", 3, 60, 4)  # elastic pads
+        S = problem.S.toarray()
+        np.testing.assert_array_equal(S, S.T)
+        self.assertGreater(np.count_nonzero(S - np.diag(np.diag(S))), 0)
+        self.assertGreaterEqual(np.linalg.eigvalsh(S).min(), -1e-12 * np.abs(S).max())
+
+    def test_a_pyramid_gives_the_velocities_of_the_scenes_own_law(self):
+        # the scene solves convex pyramids of 8 facets as contacts: where a body is in the next step tells its velocity
+        before, after = (self.steps("wall_of_boxes", 2, first, families.FACETS)[0] for first in (5, 6))
+        run = library.Run(LIBRARY, before.handle, before.n, before.m, 0, 1e-12)
+        run.time(library.COLD, 1)
+        falls = np.zeros(before.n)
+        falls[2::6] = -9.81 * 0.01  # k = M v + h Q, and boxes turn too slowly for gyroscopic terms to matter
+        np.testing.assert_allclose(np.linalg.solve(after.M.toarray(), after.k) - falls, run.answer().v, atol=2e-4)
+
+    def test_scenes_beside_each_other_share_nothing(self):
+        problem, = (Problem("piles", "machine", LIBRARY, handle) for handle in families.Recording("pile", 4, 0, count=3).steps(LIBRARY, 0, count=1))
+        self.assertEqual(problem.n, 3 * 12)
+        parts = sp.csgraph.connected_components(abs(problem.M) + abs(problem.J.T @ problem.J), directed=False)[0]
+        self.assertGreaterEqual(parts, 3)
 
 
 class Comparison(unittest.TestCase):
@@ -165,6 +212,15 @@ class Sequences(unittest.TestCase):
             self.assertTrue(np.all(oracle > 0))
         for step in steps:
             LIBRARY.destroy(step)
+
+    def test_the_table_has_a_line_for_every_variant(self):
+        recording = families.Recording("gripper", 3, 60, rubs=True)
+        measured = sequences.of_recording(LIBRARY, recording, 3)
+        self.assertEqual([one.name for one in measured], ["gripper 3", "gripper 3, friction"])
+        for one in measured:
+            self.assertEqual((one.steps, one.unsolved), (3, 0))
+            self.assertLess(one.error, 1e-9)
+        self.assertIn("| gripper 3, friction | 3 |", sequences.table(measured))
 
     def test_candidate_rows_and_allocations_are_measured(self):
         problem = families.scene("pile", 60).problem(LIBRARY)
