@@ -189,7 +189,7 @@ void Solver::State::collect(const SolveInput& input) {
   main->collect(problem, false, result);
 }
 
-/// Crowded islands that newton has given up: from where it got to, by the pivoting method.
+/// Crowded islands that newton has given up: by the pivoting method, from where it got to.
 void Solver::State::rescue(const SolveInput& input, Watch& watch, Crew& crew, mlcp_report& report, Counts& counts) {
   const Problem& problem = input.problem;
   given_up.state.assign(problem.m(), MLCP_ROW_DISABLED);
@@ -210,10 +210,18 @@ void Solver::State::rescue(const SolveInput& input, Watch& watch, Crew& crew, ml
       if (main->ends[s].crowded) result.island_outcome[s] = watch.stopped();
     return;
   }
-  exact->load(part, &result.mask);
-  exact->solve(part, watch, crew, false, result);
-  read_ends(*exact, problem, true, report, counts);
-  exact->collect(problem, true, result);
+  // where pivots from there lead to impulses that no double can balance, from rows at rest
+  for (const Mask* start : {static_cast<const Mask*>(&result.mask), static_cast<const Mask*>(nullptr)}) {
+    exact->load(part, start);
+    exact->solve(part, watch, crew, false, result);
+    read_ends(*exact, problem, true, report, counts);
+    exact->collect(problem, true, result);
+    if (settings.max_iterations > 0) return;
+    judge(input);
+    bool refused = false;
+    for (std::size_t s = 0; s < main->ends.size(); ++s) refused |= main->ends[s].crowded && result.island_outcome[s] == MLCP_ITERATION_LIMIT;
+    if (!refused) return;
+  }
 }
 
 /// The answer from the active set alone: ordered, factored and solved as if nothing had been before. Kept if it is as good as what there is.

@@ -58,7 +58,7 @@ class Run {
     const mlcp_method method = input_.settings.method;
     if (!island_.crowded && (method == MLCP_METHOD_SIMPLEX || rows_ == 0 || (method == MLCP_METHOD_AUTO && rows_ <= few_rows))) {
       pivot(trace);
-      if (end_.outcome == MLCP_ITERATION_LIMIT) pivot_as_singular(trace);
+      if (end_.outcome == MLCP_ITERATION_LIMIT) try_again(trace);
       return;
     }
     if (method == MLCP_METHOD_PGS && sweep()) return;
@@ -95,8 +95,11 @@ class Run {
     return false;
   }
 
+  bool spent() const { return input_.settings.max_iterations > 0 && end_.counts.pivots >= input_.settings.max_iterations; }
+
   /// From rows at rest.
   void try_again(Array<mlcp_pivot>* trace) {
+    if (spent()) return;
     restart();
     pivot(trace);
     if (end_.outcome == MLCP_ITERATION_LIMIT) pivot_as_singular(trace);
@@ -104,8 +107,7 @@ class Run {
 
   /// From rows at rest: M may be singular but for rounding.
   void pivot_as_singular(Array<mlcp_pivot>* trace) {
-    const std::int64_t most = input_.settings.max_iterations;
-    if (rows_ == island_.last - island_.first || (most > 0 && end_.counts.pivots >= most)) return;
+    if (rows_ == island_.last - island_.first || spent()) return;
     restart();
     pivot_semidefinite(trace);
   }
