@@ -37,4 +37,11 @@ TEST(Recorded, StalledLinkageKeepsItsSmallestImpulse) {
   EXPECT_LE(report.largest_error, 1e-12);
 }
 
+/// Friction pyramids as plain rows, 114 on 36 velocities, hardly infeasible: pivots from where Newton had got to led to impulses that no double balances,
+/// which ended as a limit. From rows at rest they end in a proof.
+TEST(Recorded, HardlyInfeasiblePyramidsEndInAProof) {
+  const mlcp_report report = solve("hardly_infeasible_pyramids.mlcp");
+  EXPECT_EQ(report.outcome, MLCP_INFEASIBLE);
+}
+
 }  // namespace

@@ -101,12 +101,5 @@ TEST(CrowdedPyramids, AreWhatTheSimplexSaysFromStepToStep) {
   EXPECT_GT(tally.infeasible, 10);
 }
 
-/// Hardly infeasible: pivots from where Newton had got to led to impulses that no double balances.
-TEST(CrowdedPyramids, ThatNewtonLeavesFarOffAreBegunAgain) {
-  Tally tally;
-  step(58933, tally);
-  EXPECT_EQ(tally.infeasible, 1);
-}
-
 }  // namespace
 }  // namespace support
