@@ -13,12 +13,6 @@
 namespace support {
 namespace {
 
-mlcp::Settings automatic() {
-  mlcp::Settings s = settings();
-  s.method = MLCP_METHOD_AUTO;
-  return s;
-}
-
 struct Contact {
   int a, b;  // bodies; b < 0: the world
   std::array<std::array<double, 6>, 3> frame;  // rates of the normal and of two tangents with the velocities of a

@@ -11,12 +11,6 @@
 namespace support {
 namespace {
 
-mlcp::Settings automatic() {
-  mlcp::Settings s = settings();
-  s.method = MLCP_METHOD_AUTO;
-  return s;
-}
-
 TEST(SmallIslands, HaveTheVelocitiesOfTheSimplex) {
   int without_factor = 0, solved = 0;
   for (int seed = 0; seed < rounds(3000); ++seed) {

@@ -22,6 +22,12 @@ mlcp::Settings settings(mlcp_pivot_rule rule, mlcp_refactorize refactorize) {
   return s;
 }
 
+mlcp::Settings automatic() {
+  mlcp::Settings s = settings();
+  s.method = MLCP_METHOD_AUTO;
+  return s;
+}
+
 Solution solve(mlcp::Solver& solver, const mlcp::Problem& problem, const mlcp::Mask* enabled, const mlcp::Mask* start) {
   Solution s;
   s.report.struct_size = sizeof s.report;

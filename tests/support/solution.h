@@ -21,6 +21,8 @@ struct Solution {
 
 /// Of the simplex.
 mlcp::Settings settings(mlcp_pivot_rule rule = MLCP_PIVOT_DUAL, mlcp_refactorize refactorize = MLCP_REFACTORIZE_WHEN_NEEDED);
+/// Of auto.
+mlcp::Settings automatic();
 Solution solve(const mlcp::Problem& problem, const mlcp::Settings& settings, const mlcp::Mask* enabled = nullptr,
                const mlcp::Mask* start = nullptr);
 Solution solve(const mlcp::Problem& problem, const mlcp::Mask* enabled = nullptr, const mlcp::Mask* start = nullptr);
